@@ -36,12 +36,12 @@ std::vector<CsvLine> csv_lines(std::string_view text) {
   return lines;
 }
 
-std::vector<std::string_view> csv_cells(std::string_view line) {
+std::vector<std::string_view> csv_cells(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    cells.push_back(trimmed(line.substr(begin, comma - begin)));
-    begin = comma + 1;
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
+    cells.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
   }
   return cells;
 }

@@ -19,8 +19,8 @@ struct CsvLine {
 // and their cells point into `text`.
 std::vector<CsvLine> csv_lines(std::string_view text);
 
-// What is between the commas, without the spaces around it.
-std::vector<std::string_view> csv_cells(std::string_view line);
+// What is between the separators, without the spaces around it.
+std::vector<std::string_view> csv_cells(std::string_view line, char separator = ',');
 
 // A header with more columns than this is refused before its names are compared with each other.
 inline constexpr std::size_t kMaxColumns = 1000;

@@ -73,10 +73,10 @@ Result<JsonValue> parse_toml(std::string_view bytes, const std::string& file) {
   } catch (const toml::exception& error) {
     const std::string message = fmt::format("{}, line {}, column {}: {}", file, error.location().line(),
                                             error.location().column(), first_line(error.what()));
-    return fail(ErrorCode::kMalformedJson, message, {{file + "#", message}});
+    return fail(ErrorCode::kUnreadableData, message, {{file + "#", message}});
   } catch (const std::exception& error) {
     const std::string message = fmt::format("{} is no TOML: {}", file, first_line(error.what()));
-    return fail(ErrorCode::kMalformedJson, message, {{file + "#", message}});
+    return fail(ErrorCode::kUnreadableData, message, {{file + "#", message}});
   }
 }
 

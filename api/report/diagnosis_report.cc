@@ -30,7 +30,9 @@ constexpr double kMinMarginal = 0.01;  // of effects with a row of their own
 std::string_view meaning(Verdict verdict) {
   switch (verdict) {
     case Verdict::kNoGap:
-      return "Prediction and drives are the same, within what sensors and the drives' own scatter allow.";
+      return "With parameters re-tuned within what was believed of them, prediction and drives agree as "
+             "closely as "
+             "sensors and the drives' own scatter allow. Nothing is missing.";
     case Verdict::kNotDetected:
       return "No gap was found, but these drives could not have shown a small one.";
     case Verdict::kParameters:
@@ -51,6 +53,24 @@ constexpr std::string_view kPartial =
     "The simulator lacked the effects below. They explain a part: something unexplained remains beside them, "
     "and "
     "what is known of it is below too.";
+
+std::string_view why_no_model(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoGap:
+    case Verdict::kNotDetected:
+      return "None is offered: what was given predicts these drives as well as they can be, once its "
+             "parameters are "
+             "re-tuned within what was believed of them.";
+    case Verdict::kUnknown:
+      return "None is offered: something unknown is at work, and on drives that the fit had not seen the "
+             "re-tuned "
+             "model predicts some channel worse than the nominal one, or none much better.";
+    case Verdict::kInsufficient:
+      return "None is offered: there are too few drives.";
+    default:
+      return "None is offered: with the effects, drives that the fit had not seen are predicted no better.";
+  }
+}
 
 std::string set_words(const std::vector<std::string>& names) {
   return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
@@ -210,11 +230,18 @@ class Report {
   void write_parameters() {
     if (d_.retuned.empty()) return;
     page_.section("Parameters re-tuned");
-    page_.paragraph("Most are logarithms of a factor on the nominal value: 0.1 is 10 % more.");
-    page_.table({"parameter", "value, 90 % interval", "believed before, std", "the drives tell"});
+    page_.paragraph(
+        "Soils' parameters and the torque constant are logarithms of a factor on the nominal value: 0.1 is "
+        "10 % "
+        "more, 1.5 is 4.5 times as much. The others have units of their own. One that is many deviations "
+        "from what was believed of it is not to be trusted without another "
+        "look at it.");
+    page_.table(
+        {"parameter", "value, 90 % interval", "believed before, std", "deviations off", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)
-      page_.row(
-          {p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
+      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std),
+                 fmt::format("{:+.1f}", (p.value.value - p.believed) / p.prior_std),
+                 p.determined ? "yes" : "no"});
     add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
   }
 
@@ -232,7 +259,7 @@ class Report {
   void write_model() {
     page_.section("The corrected model");
     const auto model = corrected_model(campaign_, d_);
-    if (!model) return page_.paragraph("None is offered: nothing that was found improves on what there was.");
+    if (!model) return page_.paragraph(std::string(why_no_model(d_.verdict)));
     page_.paragraph(Spans{{"Rover "},
                           {model->rover.name, Style::kCode},
                           {model->rover.effects.empty() ? "; " : " with the effects above at work; "},

@@ -90,7 +90,9 @@ void write_ladder_table(ReportPage& page, const Diagnosis& d) {
   page.item(
       "with discrepancy: what nobody has named is described as well, as far as it repeats from drive to "
       "drive. Where this is much lower than the rung before it, something is still missing");
-  page.item("floor: what sensors and the drives' own scatter leave; no model gets below it");
+  page.item(
+      "floor: what sensors and the drives' own scatter are estimated to leave. A rung below it says that the "
+      "drives scattered by less than was estimated");
   const auto any = [&](const auto& member) {
     return std::any_of(d.gap.begin(), d.gap.end(),
                        [&](const gap::ChannelClosure& c) { return (c.*member).has_value(); });

@@ -192,8 +192,8 @@ class Diagnoser {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
       const Interval value = parameter_interval(fit, p);
       const double error = (value.high - value.value) / kReach90;
-      d_.retuned.push_back(
-          {parameter.name, value, parameter.std, error < options_.verdict.determined_share * parameter.std});
+      d_.retuned.push_back({parameter.name, value, parameter.std,
+                            error < options_.verdict.determined_share * parameter.std, parameter.neutral});
     }
   }
 

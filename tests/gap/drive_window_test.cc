@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/angle.h"
 #include "tests/sim/reference_models.h"
@@ -175,6 +177,44 @@ TEST(DriveCampaign, WheelsThatTurnedAgainstTheCommandAreNoted) {
   note_turned_against_command(campaign);
   ASSERT_EQ(campaign.notes.size(), 1U);
   EXPECT_EQ(campaign.notes[0], "1 of 1 drives (D): the wheels turned against the commanded direction");
+}
+
+// A campaign whose times were milliseconds taken for seconds came as "no effect is missing".
+TEST(DriveCampaign, ReadingsThatNoSuchRoverHasAreNoted) {
+  const auto notes_of = [](const auto& change) {
+    DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+    campaign.notes.clear();
+    for (DriveSample& sample : campaign.drives[0].samples) {
+      for (WheelReading& wheel : sample.wheels) wheel.motor_temp_c = 20.0, wheel.sinkage_m = 0.01;
+      change(sample);
+    }
+    note_implausible_readings(campaign);
+    return campaign.notes;
+  };
+  EXPECT_TRUE(notes_of([](DriveSample&) {}).empty());
+  const auto noted = [&](const auto& change, const std::string& words) {
+    const std::vector<std::string> notes = notes_of(change);
+    ASSERT_EQ(notes.size(), 1U) << words;
+    EXPECT_NE(notes[0].find(words), std::string::npos) << notes[0];
+    EXPECT_NE(notes[0].find("check units"), std::string::npos) << notes[0];
+  };
+  noted([](DriveSample& s) { s.time_s *= 1e3; }, "went less than 0.0008 of the commanded way");
+  noted([](DriveSample& s) { s.p_MB *= 1e3; }, "went more than 800 of the commanded way");
+  noted(
+      [](DriveSample& s) {
+        for (WheelReading& w : s.wheels) w.current_a = 200.0;
+      },
+      "half of the currents are beyond 200 A");
+  noted(
+      [](DriveSample& s) {
+        for (WheelReading& w : s.wheels) w.motor_temp_c = 293.0;
+      },
+      "beyond 293 C");
+  noted(
+      [](DriveSample& s) {
+        for (WheelReading& w : s.wheels) w.sinkage_m = 10.0;
+      },
+      "deeper than 10 m");
 }
 
 }  // namespace

@@ -23,14 +23,14 @@ wheels = {"lf": "FL", "lm": "ML", "lr": "RL", "rf": "FR", "rm": "MR", "rr": "RR"
 for drive in drives:
     rows = list(csv.DictReader((source / drive["file"]).open()))
     with (team / (drive["id"] + "-log.csv")).open("w") as out:
-        names = ["stamp_ms", "north", "east", "down", "roll_rad", "pitch_up_rad", "heading", "spare"]
+        names = ["stamp_ms", "north", "east", "down", "roll_rad", "pitch_up_rad", "heading", "spare, of whom"]
         names += [f"{channel}_{w}" for w in wheels.values() for channel in ("spin", "mA", "T_K")]
         print(";".join(names), file=out)
         for row in rows:
             v = {key: float(value) for key, value in row.items() if value != ""}
             cells = [f"{1000.0 * v['t_s'] + 1.7e12:.3f}", f"{v['y_m'] + 200:.9f}", f"{v['x_m'] + 100:.9f}",
                      f"{-v['z_m']:.9f}", f"{math.radians(v['roll_deg']):.12f}", f"{-math.radians(v['pitch_deg']):.12f}",
-                     f"{90.0 - v['yaw_deg']:.9f}", "7"]
+                     f"{90.0 - v['yaw_deg']:.9f}", "ok, go"]
             for w in wheels:
                 cells += [f"{-math.radians(v[w + '_rate_deg_s']):.12f}", f"{1000.0 * v[w + '_current_a']:.9f}",
                           f"{v[w + '_motor_temp_c'] + 273.15:.9f}"]
@@ -54,7 +54,9 @@ MAKE
 
 "$slipway" import "$folder/team/yard.toml" --data "$data" --out "$folder/yard" --plot "$folder/yard.svg" >"$folder/words"
 grep -q 'lf_current_a *mA_FL *mA *0.001' "$folder/words"
-grep -q 'not asked for: spare' "$folder/words"
+grep -q 'not asked for: spare, of whom' "$folder/words"
+grep -q 'axes are ned' "$folder/words"
+! grep -q 'check units' "$folder/words"
 grep -q '<svg' "$folder/yard.svg"
 python3 - "$data/gap-practice/p01" "$folder/yard" <<'CHECK'
 import csv, json, pathlib, sys
@@ -82,8 +84,23 @@ sed -e 's/from = "heading"/from = "headnig"/; s/from = "mA_{w}"/from = "amps_{w}
 status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" --out "$folder/wrong" >/dev/null 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && grep -q 'headnig.*heading' "$folder/err" && grep -q amps_RR "$folder/err" && [ ! -e "$folder/wrong" ]
+
+# Stamps since 1970 stay as they are; a clock or a unit that is taken for another is told.
+sed -e 's/unit = "ms"/unit = "ms"\nzero = "recorded"/' "$folder/team/yard.toml" >"$folder/team/epoch.toml"
+"$slipway" import "$folder/team/epoch.toml" --data "$data" --out "$folder/epoch" >/dev/null
+grep -q '^1700000002,' "$folder"/epoch/D*1.csv
+sed -e 's/unit = "ms"/unit = "s"/; s/unit = "mA"/unit = "A"/; s/unit = "K"/unit = "C"/' "$folder/team/yard.toml" >"$folder/team/units.toml"
+"$slipway" import "$folder/team/units.toml" --data "$data" >"$folder/words"
+[ "$(grep -c 'check units and clock' "$folder/words")" = 3 ]
+
+# Every bad time, with what is there.
+first="$(ls "$folder"/team/D*-log.csv | head -n 1)"
+sed -e '5s/^[^;]*/1699999999000/; 9s/^[^;]*//' -i "$first"
+status=0
+"$slipway" import "$folder/team/yard.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'line 5 (stamp_ms): 1699999999000 follows 17' "$folder/err" && grep -q 'line 9 (stamp_ms): the time is missing' "$folder/err"
 echo 'name = [' >"$folder/team/wrong.toml"
 status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
-[ "$status" = 2 ] && grep -q 'wrong.toml, line' "$folder/err"
+[ "$status" = 2 ] && grep -q 'wrong.toml, line' "$folder/err" && ! grep -q JSON "$folder/err"
 echo "as expected"

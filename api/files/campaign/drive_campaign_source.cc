@@ -280,6 +280,7 @@ void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSer
 void take_as_recorded(gap::DriveCampaign& campaign) {
   gap::adopt_measured_rates(campaign);
   gap::note_turned_against_command(campaign);
+  gap::note_implausible_readings(campaign);
   if (gap::currents_split_evenly(campaign))
     campaign.notes.emplace_back(
         "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "

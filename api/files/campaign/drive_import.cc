@@ -40,6 +40,7 @@ std::optional<std::string> bytes_of(const fs::path& path) {
 struct RecordedTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;  // NaN where a cell is empty
+  std::vector<std::size_t> lines;         // of each row, in the file
 };
 
 class TableReader {
@@ -48,9 +49,7 @@ class TableReader {
       : file_(std::move(file)), separator_(separator), faults_(faults) {}
 
   // Only cells of the columns that are asked for must be numbers.
-  RecordedTable read(std::string bytes, const std::set<std::string>& asked) {
-    // The campaign's own reader of cells knows commas.
-    if (separator_ != ',') std::replace(bytes.begin(), bytes.end(), separator_, ',');
+  RecordedTable read(std::string_view bytes, const std::set<std::string>& asked) {
     const std::vector<CsvLine> lines = csv_lines(bytes);
     RecordedTable table;
     if (lines.size() < 3) {
@@ -58,7 +57,8 @@ class TableReader {
             fmt::format("{} has {} lines, must have a header and two rows at least", file_, lines.size()));
       return table;
     }
-    for (const std::string_view name : csv_cells(lines[0].text)) table.names.emplace_back(unquoted(name));
+    for (const std::string_view name : csv_cells(lines[0].text, separator_))
+      table.names.emplace_back(unquoted(name));
     for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
     if (count_ > kMaxFaultsOfFile)
       faults_.push_back(
@@ -77,11 +77,12 @@ class TableReader {
   }
 
   void read_row(const CsvLine& line, const std::set<std::string>& asked, RecordedTable& table) {
-    const std::vector<std::string_view> cells = csv_cells(line.text);
+    const std::vector<std::string_view> cells = csv_cells(line.text, separator_);
     if (cells.size() != table.names.size())
       return fault(fmt::format("/{}", line.number),
                    fmt::format("{}, line {}: {} cells, must have {} as the header", file_, line.number,
                                cells.size(), table.names.size()));
+    table.lines.push_back(line.number);
     std::vector<double>& row = table.rows.emplace_back();
     for (std::size_t c = 0; c < cells.size(); ++c) {
       row.push_back(kMissing);
@@ -131,6 +132,7 @@ class Importer {
 
   Result<ImportedCampaign> run() {
     made_.name = mapping_.name;
+    made_.from_ned = mapping_.axes == ImportAxes::kNed;
     for (const ImportColumn& column : mapping_.columns) {
       asked_.insert(column.from);
       made_.columns.push_back({column.to, column.from, column.unit, column.sign * column.factor,
@@ -216,20 +218,25 @@ class Importer {
     convert(drive, table, *clock, places);
   }
 
-  // All faults of one file's clock are one: the first.
   bool read_clock(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
                   std::vector<double>& time_s) {
     const double unit = seconds_of(mapping_.clock_unit);
     const double zero = mapping_.clock_from_first_row ? table.rows.front()[clock] : 0.0;
+    std::size_t bad = 0;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       time_s.push_back(unit * (table.rows[i][clock] - zero));
-      if (std::isfinite(time_s.back()) && (i == 0 || time_s[i] > time_s[i - 1])) continue;
-      faults_.push_back({fmt::format("{}#/{}/{}", drive.file, i + 2, mapping_.clock_column),
-                         fmt::format("{}, line {} ({}): the clock must be there and go on from row to row",
-                                     drive.file, i + 2, mapping_.clock_column)});
-      return false;
+      if (std::isfinite(time_s.back()) && (i == 0 || !(time_s[i] <= time_s[i - 1]))) continue;
+      const double now = table.rows[i][clock];
+      const std::string what = std::isfinite(now)
+                                   ? fmt::format("{} follows {}: times must increase from row to row", now,
+                                                 table.rows[i - 1][clock])
+                                   : "the time is missing";
+      faults_.push_back(
+          {fmt::format("{}#/{}/{}", drive.file, table.lines[i], mapping_.clock_column),
+           fmt::format("{}, line {} ({}): {}", drive.file, table.lines[i], mapping_.clock_column, what)});
+      if (++bad >= kMaxFaultsOfFile) return false;
     }
-    return true;
+    return bad == 0;
   }
 
   void convert(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
@@ -325,7 +332,7 @@ class Importer {
     for (const ImportColumn& column : mapping_.columns) text += "," + column.to;
     text += '\n';
     for (std::size_t i = 0; i < drive.rows; ++i) {
-      text += fmt::format("{:.9g}", drive.time_s[i]);
+      text += fmt::format("{:.15g}", drive.time_s[i]);  // seconds since 1970 to the microsecond
       for (const std::vector<double>& values : drive.values)
         text += std::isfinite(values[i]) ? fmt::format(",{:.9g}", values[i]) : ",";
       text += '\n';

@@ -32,6 +32,7 @@ struct ImportedDrive {
 struct ImportedCampaign {
   std::string name;
   std::vector<ImportedColumn> columns;
+  bool from_ned = false;  // recorded x north, y east, z down
   std::vector<ImportedDrive> drives;
   std::vector<std::string> passed_over;                    // columns of the files that nothing asked for
   std::vector<std::pair<std::string, std::string>> files;  // campaign.json and the drives': name, bytes

@@ -48,7 +48,7 @@ struct ImportMapping {
 };
 
 // Reads a mapping. `{w}` in a column's two names stands for every wheel of [wheels], by the campaign's name
-// and the team's. Errors: malformed_json (no TOML), invalid_request with every fault by its pointer.
+// and the team's. Errors: unreadable_data (no TOML), invalid_request with every fault by its pointer.
 Result<ImportMapping> read_import_mapping(std::string_view bytes, const std::string& file);
 
 }  // namespace slipway::api

@@ -58,6 +58,75 @@ void note_turned_against_command(DriveCampaign& campaign) {
                   campaign.drives.size(), fmt::join(against, ", "), count > kMaxNamed ? ", ..." : ""));
 }
 
+namespace {
+
+// The middle of what was read of all wheels, of its size; nothing where nothing was.
+std::optional<double> median_size(const DriveCampaign& campaign, double WheelReading::*quantity) {
+  std::vector<double> sizes;
+  for (const MeasuredDriveSeries& drive : campaign.drives)
+    for (const DriveSample& sample : drive.samples)
+      for (const WheelReading& wheel : sample.wheels)
+        if (std::isfinite(wheel.*quantity)) sizes.push_back(std::abs(wheel.*quantity));
+  if (sizes.empty()) return std::nullopt;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+// The way from the first pose to the last over the commanded one, of the drive in the middle that is no turn
+// in place.
+std::optional<double> median_way(const DriveCampaign& campaign) {
+  std::vector<double> ways;
+  for (const MeasuredDriveSeries& drive : campaign.drives) {
+    if (drive.command.turn_in_place) continue;
+    std::vector<Eigen::Vector2d> places;
+    double first_s = 0.0, last_s = 0.0;
+    for (const DriveSample& sample : drive.samples) {
+      if (!sample.p_MB.head<2>().allFinite()) continue;
+      if (places.empty()) first_s = sample.time_s;
+      last_s = sample.time_s;
+      places.emplace_back(sample.p_MB.head<2>());
+    }
+    const double commanded_m = std::abs(drive.command.speed_m_s) * (last_s - first_s);
+    if (places.size() < 2 || !(commanded_m > 0.0)) continue;
+    double way_m = 0.0;
+    for (std::size_t i = 1; i < places.size(); ++i) way_m = std::max(way_m, (places[i] - places[0]).norm());
+    ways.push_back(way_m / commanded_m);
+  }
+  if (ways.empty()) return std::nullopt;
+  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
+  std::nth_element(ways.begin(), middle, ways.end());
+  return *middle;
+}
+
+}  // namespace
+
+void note_implausible_readings(DriveCampaign& campaign) {
+  constexpr double kShortWay = 0.02,
+                   kLongWay = 3.0;  // of the commanded one: slip may be near 1, never far below 0
+  constexpr double kHotMotor_c = 100.0;
+  const sim::RoverModel& rover = *campaign.rover;
+  const auto note = [&](std::string what) {
+    campaign.notes.push_back(what + ": check units and clock, since nothing below is right if one is wrong");
+  };
+  if (const auto way = median_way(campaign); way && (*way < kShortWay || *way > kLongWay))
+    note(fmt::format("half of the drives went {} than {:.3g} of the commanded way",
+                     *way < 1.0 ? "less" : "more", *way));
+  const double lifting_nm = rover.mass_kg * campaign.gravity_m_s2 * rover.wheels.front().radius_m;
+  const double lifting_a =
+      rover.drive.no_load_current_a + lifting_nm / (rover.drive.torque_constant_nm_per_a *
+                                                    rover.drive.gear_ratio * rover.drive.gear_efficiency);
+  if (const auto current = median_size(campaign, &WheelReading::current_a); current && *current > lifting_a)
+    note(fmt::format(
+        "half of the currents are beyond {:.3g} A, where {:.3g} A would lift the rover by one wheel",
+        *current, lifting_a));
+  if (const auto temp = median_size(campaign, &WheelReading::motor_temp_c); temp && *temp > kHotMotor_c)
+    note(fmt::format("half of the motors' temperatures are beyond {:.3g} C", *temp));
+  if (const auto sinkage = median_size(campaign, &WheelReading::sinkage_m);
+      sinkage && *sinkage > rover.wheels.front().radius_m)
+    note(fmt::format("half of the sinkages are deeper than {:.3g} m, more than a wheel's radius", *sinkage));
+}
+
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives) {
   DriveCampaign subset;
   subset.name = campaign.name;

@@ -214,6 +214,7 @@ struct RetunedParameter {
   Interval value;  // the logarithm or number that the nuisance catalogue says
   double prior_std = 0.0;
   bool determined = true;  // the drives say more than the prior
+  double believed = 0.0;   // before the drives; 0 is the nominal value, a reference may have told of another
 };
 
 // The drives that were taken as healthy, and the difference between model and drives that they taught, in the

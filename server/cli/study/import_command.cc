@@ -49,7 +49,13 @@ std::string import_words(const api::ImportedCampaign& campaign, const gap::Drive
   for (const gap::NominalSoil& soil : read.soils) soils.push_back(soil.name);
   out += fmt::format("{}, {} terrains, {} m/s2\n\n", fmt::join(soils, ", "), read.terrains.size(),
                      read.gravity_m_s2);
-  out += columns_words(campaign) + "\n" + drives_words(campaign);
+  out += columns_words(campaign);
+  if (campaign.from_ned)
+    out +=
+        "the recorded axes are ned: in the campaign x_m is what y_m is read from and y_m what x_m is, z_m "
+        "and "
+        "pitch_deg have the other sign, and yaw_deg is 90 less it; the ranges above are the campaign's\n";
+  out += "\n" + drives_words(campaign);
   if (!campaign.passed_over.empty())
     out += fmt::format("\nnot asked for: {}\n", fmt::join(campaign.passed_over, ", "));
   for (const std::string& note : read.notes) out += "note: " + note + "\n";

@@ -51,8 +51,10 @@ std::string watch_words(const gap::DriveWatch& watch) {
   out += fmt::format("something has changed: alarm at drive {}, most probably since {} ({} drives)\n",
                      watch.drives[*watch.alarm].id, watch.drives[watch.since].id,
                      *watch.alarm - watch.since + 1);
-  out += fmt::format("shares of the evidence at the alarm: {}\n", fmt::join(causes, ", "));
-  if (watch.diagnosis) out += diagnosis_words(*watch.diagnosis);
+  out += fmt::format("first pointer, by derivatives alone and without causes from outside: {}\n",
+                     fmt::join(causes, ", "));
+  if (watch.diagnosis)
+    out += "the diagnosis of the drives since, which decides:\n" + diagnosis_words(*watch.diagnosis);
   return out;
 }
 
