@@ -219,8 +219,8 @@ class SoilBeyondBelief : public ::testing::Test {
 };
 
 TEST_F(SoilBeyondBelief, TakesNamesBackThatAreNotAsGoodAsCertain) {
-  const Diagnosis near = doubted({0.0, 4.4, 2.0});
-  EXPECT_EQ(near.verdict, Verdict::kEffects) << "4.8 deviations";
+  const Diagnosis near = doubted({0.0, 4.7, 2.0});
+  EXPECT_EQ(near.verdict, Verdict::kEffects) << "5.1 deviations";
   EXPECT_FALSE(near.partial);
   const Diagnosis bent = doubted({0.0, -4.7, 2.8});
   EXPECT_EQ(bent.verdict, Verdict::kUnknown);
