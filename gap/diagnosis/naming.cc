@@ -4,7 +4,6 @@
 #include <optional>
 #include <set>
 
-#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
@@ -51,8 +50,7 @@ bool is_law(const std::string& cause) {
 
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
 // alone stays: nothing else says what is there.
-std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen,
-                      std::span<const EffectMarginal> marginals, const CauseShares& shares,
+std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
                       const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
@@ -68,8 +66,7 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen,
     const bool beside_one_form = std::all_of(kept.begin(), kept.end(), has_one_form);
     for (const std::string& cause : first.effects)
       if (is_effect(cause) && (beside_one_form || has_one_form(cause)) &&
-          shares.beside_others(cause) >= options.min_share_of_rest &&
-          marginal_of(marginals, cause).probability >= options.min_probability_of_rest)
+          shares.beside_others(cause) >= options.min_share_of_rest)
         kept.insert(cause);
   }
   for (std::size_t c = 0; c < search.candidates.size(); ++c)
@@ -93,7 +90,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
-  chosen = of_weight(search, chosen, marginals, shares, options);
+  chosen = of_weight(search, chosen, shares, options);
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;

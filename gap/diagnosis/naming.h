@@ -35,8 +35,7 @@ struct CauseShares {
 // less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; so is
 // a law of ground or motors beside another, of which it closes less than min_share_of_law: that much another
 // equation of the other one may close. Beside an effect that closes more, an effect is left out only if it
-// also closes less than min_share_of_rest of what the other leaves, where either of the two has one form, or
-// is less probable than min_probability_of_rest:
+// also closes less than min_share_of_rest of what the other leaves, where either of the two has one form:
 // what is left is then not the other form of the one that another could mimic. Where nothing unknown is among
 // the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
 // probability and share reach min_partial_probability and min_partial_share; of several these must stand

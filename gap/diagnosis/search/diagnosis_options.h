@@ -194,7 +194,6 @@ struct VerdictOptions {
   // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
   // closes nearly all leaves little of the whole to close.
   double min_share_of_rest = 0.05;
-  double min_probability_of_rest = 0.8;  // marginal, of what is named by that alone
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;
