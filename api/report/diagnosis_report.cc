@@ -51,8 +51,7 @@ std::string_view meaning(Verdict verdict) {
 
 constexpr std::string_view kPartial =
     "The simulator lacked the effects below. They explain a part: something unexplained remains beside them, "
-    "and "
-    "what is known of it is below too.";
+    "and what is known of it is below too.";
 
 std::string_view why_no_model(Verdict verdict) {
   switch (verdict) {
@@ -181,16 +180,16 @@ class Report {
   }
 
   void write_marginals() {
-    if (d_.marginals.empty()) return;
+    const auto shown = [](const gap::EffectMarginal& m) { return m.probability >= kMinMarginal; };
+    if (std::none_of(d_.marginals.begin(), d_.marginals.end(), shown)) return;
     page_.paragraph(
         "Each effect of the library over all explanations, with and without something unknown beside it, and "
         "what goes with it of the gap that re-tuning leaves on drives held out of the fit. Effects are named "
-        "by "
-        "both: one that closes next to nothing is not named, one that closes most is not withheld because "
+        "by both: one that closes next to nothing is not named, one that closes most is not withheld because "
         "something else is left.");
     page_.table({"effect", "probability", "closes"});
     for (const gap::EffectMarginal& m : d_.marginals)
-      if (m.probability >= kMinMarginal)
+      if (shown(m))
         page_.row(
             {m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share)});
   }

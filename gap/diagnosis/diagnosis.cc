@@ -275,7 +275,7 @@ class Diagnoser {
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     withdraw_what_tells_no_better(closure->log_density_gain, d_);
-    ReportedAnswer answer{reported_fit(), named_share_, {}};
+    ReportedAnswer answer{reported_fit(), named_share_, best().log_evidence, {}};
     if (!campaign_.reference) answer.scatter = prepared_.noise->furthest_above_belief();
     doubt_answer(answer, options_.verdict, d_);
     if (explains()) {

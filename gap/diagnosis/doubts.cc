@@ -127,10 +127,13 @@ std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported,
 
 std::optional<std::string> little_closed(const ReportedAnswer& answer, const Diagnosis& d,
                                          const VerdictOptions& options) {
-  if (!options.name_by_marginals || d.effects.empty() || answer.closed_share >= options.min_named_share)
+  if (!options.name_by_marginals || d.effects.empty() || answer.log_evidence < options.strong_evidence ||
+      answer.closed_share >= options.min_named_share)
     return std::nullopt;
-  return fmt::format("what fits them best closes {:.0f} % of the gap on drives held out of the fit",
-                     100.0 * answer.closed_share);
+  return fmt::format(
+      "what fits them best (log evidence +{:.0f}) closes {:.0f} % of the gap on drives held out of "
+      "the fit",
+      answer.log_evidence, 100.0 * answer.closed_share);
 }
 
 double unknown_probability(const Diagnosis& d) {
@@ -187,11 +190,11 @@ bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
   return of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
 }
 
-// Whether nothing is alike and each is more probable than not.
+// Whether each is more probable than not; where other sets were alike, whether each is in nearly all of them.
 bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
-  return d.verdict == Verdict::kEffects && of_each_named(d, options, [&](const EffectMarginal& m) {
-           return m.probability >= options.min_probability_closing_most;
-         });
+  const double least =
+      d.verdict == Verdict::kEffects ? options.min_probability_closing_most : options.min_partial_probability;
+  return of_each_named(d, options, [&](const EffectMarginal& m) { return m.probability >= least; });
 }
 
 // What is held against an answer, and whether its names stand all the same.

@@ -20,6 +20,7 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 struct ReportedAnswer {
   const FittedExplanation& fit;  // that it stands for
   double closed_share = 0.0;     // of the held-out gap, by all that it names
+  double log_evidence = 0.0;     // over that of nothing missing
   std::optional<ScaleOffBelief>
       scatter;  // the scale furthest above belief; none where a reference told of it
 };
@@ -29,12 +30,12 @@ struct ReportedAnswer {
 //   2. a parameter lies at the end of what it may be,
 //   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects, none of which
 //      acts at a place, beyond max_soil_shift,
-//   4. what is named closes less than min_named_share of the gap, or
+//   4. what is named closes less than min_named_share of the gap for all its strong_evidence, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
 // cases 3 and 5 they do so if each is as good as certain (min_probability_beside_form and
-// min_share_beside_form), in case 5 also if they close min_partial_share together, each is more probable than
-// not and no others were alike. d has its `gap`.
+// min_share_beside_form), in case 5 also if they close min_partial_share together and each is more probable
+// than not, or has min_partial_probability where other sets were alike. d has its `gap`.
 void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

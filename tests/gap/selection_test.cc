@@ -103,10 +103,11 @@ TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
 Diagnosis answer_with(Verdict verdict, double least_left) {
   Diagnosis d;
   d.verdict = verdict;
-  if (verdict == Verdict::kEffects) d.effects.push_back({"hardpan", "", 0.95, {}});
+  const bool names = verdict == Verdict::kEffects || verdict == Verdict::kEffectSet;
+  if (names) d.effects.push_back({"hardpan", "", 0.95, {}});
   d.marginals.push_back({.name = "hardpan", .probability = 0.95, .closed_share = 0.4});
   d.candidates.resize(2);
-  if (verdict == Verdict::kEffects) d.candidates[0].effects = {"hardpan"};
+  if (names) d.candidates[0].effects = {"hardpan"};
   d.candidates[0].probability = 0.95;
   d.candidates[1].with_unknown = true;
   d.candidates[1].probability = 0.05;
@@ -125,7 +126,7 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
   const auto doubted = [&](Diagnosis d) {
-    doubt_answer({reported, 0.4, {}}, VerdictOptions{}, d);
+    doubt_answer({reported, 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(answer_with(Verdict::kNoGap, 1.2)).verdict, Verdict::kNoGap);
@@ -169,7 +170,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front() = {.name = "hardpan", .probability = probability, .closed_share = closed_share};
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
-    doubt_answer({reported, closed_share, scatter}, VerdictOptions{}, d);
+    doubt_answer({reported, closed_share, 100.0, scatter}, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(Verdict::kParameters, 1.5, 0.0).verdict, Verdict::kParameters);
@@ -189,6 +190,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   EXPECT_EQ(nothing.verdict, Verdict::kUnknown);
   EXPECT_NE(nothing.reason.find("closes 5 %"), std::string::npos) << nothing.reason;
   EXPECT_EQ(doubted(Verdict::kEffectSet, 3.3, 0.6).verdict, Verdict::kUnknown) << "others were alike";
+  EXPECT_TRUE(doubted(Verdict::kEffectSet, 3.3, 0.6, 0.95).partial) << "it is in nearly all of them";
 }
 
 // With grousers withheld, a larger wheel "explained" them on soil 4.7 deviations more cohesive than believed.
@@ -212,7 +214,7 @@ class SoilBeyondBelief : public ::testing::Test {
   Diagnosis doubted(const Shift& shift, Verdict verdict = Verdict::kEffects, double probability = 0.9) const {
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front().probability = probability;
-    doubt_answer({fit_with(shift), 0.4, {}}, VerdictOptions{}, d);
+    doubt_answer({fit_with(shift), 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
   }
   DriveCampaign campaign_;
@@ -250,7 +252,7 @@ TEST_F(SoilBeyondBelief, IsMeasuredInUsualDeviations) {
 TEST_F(SoilBeyondBelief, LeavesWhatIsToldByItsPlace) {
   Diagnosis patch = answer_with(Verdict::kEffects, 1.0);
   patch.effects.front().name = "soft_patch";
-  doubt_answer({fit_with({0.0, 5.5, 0.0}), 0.4, {}}, VerdictOptions{}, patch);
+  doubt_answer({fit_with({0.0, 5.5, 0.0}), 0.4, 100.0, {}}, VerdictOptions{}, patch);
   EXPECT_EQ(patch.verdict, Verdict::kEffects);
   EXPECT_FALSE(patch.partial);
 }
@@ -267,7 +269,7 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
         reported.x[p] = deviations * reported.hypothesis.parameters()[p].std;
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front().probability = probability;
-    doubt_answer({reported, 0.4, {}}, VerdictOptions{}, d);
+    doubt_answer({reported, 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
   };
   for (const double sense : {-1.0, 1.0}) {
@@ -280,7 +282,7 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
   EXPECT_TRUE(doubted(7.0, Verdict::kEffects, 1.0).partial) << "it is as good as certain";
 }
 
-// With multipass withheld, a hard layer of probability 0.94 closed 9 % of the gap.
+// With multipass withheld, a hard layer of probability 0.94 and a log evidence of 135 closed 9 % of the gap.
 TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
   DriveCampaign campaign;
   campaign.soils.resize(1);
@@ -289,11 +291,14 @@ TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
   for (const double share : {0.09, 0.11}) {
     Diagnosis d = answer_with(Verdict::kEffects, 1.0), old = d;
     d.marginals.front().probability = 1.0;
-    doubt_answer({reported, share, {}}, VerdictOptions{}, d);
+    doubt_answer({reported, share, 100.0, {}}, VerdictOptions{}, d);
     EXPECT_EQ(d.verdict, share < 0.1 ? Verdict::kUnknown : Verdict::kEffects) << share << ", certain or not";
+    Diagnosis weak = answer_with(Verdict::kEffects, 1.0);
+    doubt_answer({reported, share, 18.0, {}}, VerdictOptions{}, weak);
+    EXPECT_EQ(weak.verdict, Verdict::kEffects) << "a weak effect closes little";
     VerdictOptions old_naming;
     old_naming.name_by_marginals = false;
-    doubt_answer({reported, share, {}}, old_naming, old);
+    doubt_answer({reported, share, 100.0, {}}, old_naming, old);
     EXPECT_EQ(old.verdict, Verdict::kEffects) << "names did not follow shares";
   }
 }

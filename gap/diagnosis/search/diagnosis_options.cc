@@ -195,8 +195,9 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
                max_soil_shift, max_closure_shift, rival_share, min_doubt, determined_share, max_angle_deg,
                min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
-               min_share_of_law, min_share_of_rest, min_partial_probability, min_partial_share,
-               min_probability_beside_form, min_share_beside_form, min_probability_closing_most] = options;
+               strong_evidence, min_share_of_law, min_share_of_rest, min_partial_probability,
+               min_partial_share, min_probability_beside_form, min_share_beside_form,
+               min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -219,6 +220,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(name_by_marginals);
   SLIPWAY_FIELD(min_closed_share);
   SLIPWAY_FIELD(min_named_share);
+  SLIPWAY_FIELD(strong_evidence);
   SLIPWAY_FIELD(min_share_of_law);
   SLIPWAY_FIELD(min_share_of_rest);
   SLIPWAY_FIELD(min_partial_probability);
