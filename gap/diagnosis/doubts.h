@@ -6,7 +6,8 @@
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/search/explanation.h"
 
-// What drives held out of the fit, and the scatter between drives, say against a verdict.
+// What drives held out of the fit, the scatter between drives and what was believed of soil and laws say
+// against a verdict.
 namespace slipway::gap {
 
 // Not certain of effects that predicted harsh drives worse than re-tuned parameters did, by more than chance.
@@ -18,11 +19,10 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 
 // What is held against an answer besides its probability.
 struct ReportedAnswer {
-  const FittedExplanation& fit;  // that it stands for
-  double closed_share = 0.0;     // of the held-out gap, by all that it names
-  double log_evidence = 0.0;     // over that of nothing missing
-  std::optional<ScaleOffBelief>
-      scatter;  // the scale furthest above belief; none where a reference told of it
+  const FittedExplanation& fit;           // that it stands for
+  double closed_share = 0.0;              // of the held-out gap, by all that it names
+  double log_evidence = 0.0;              // over that of nothing missing
+  std::optional<ScaleOffBelief> scatter;  // furthest above belief; none where a reference told of it
 };
 
 // Takes an answer back to `unknown` where
