@@ -31,8 +31,7 @@ std::string_view meaning(Verdict verdict) {
   switch (verdict) {
     case Verdict::kNoGap:
       return "With parameters re-tuned within what was believed of them, prediction and drives agree as "
-             "closely as "
-             "sensors and the drives' own scatter allow. Nothing is missing.";
+             "closely as sensors and the drives' own scatter allow. Nothing is missing.";
     case Verdict::kNotDetected:
       return "No gap was found, but these drives could not have shown a small one.";
     case Verdict::kParameters:
@@ -58,12 +57,10 @@ std::string_view why_no_model(Verdict verdict) {
     case Verdict::kNoGap:
     case Verdict::kNotDetected:
       return "None is offered: what was given predicts these drives as well as they can be, once its "
-             "parameters are "
-             "re-tuned within what was believed of them.";
+             "parameters are re-tuned within what was believed of them.";
     case Verdict::kUnknown:
       return "None is offered: something unknown is at work, and on drives that the fit had not seen the "
-             "re-tuned "
-             "model predicts some channel worse than the nominal one, or none much better.";
+             "re-tuned model predicts some channel worse than the nominal one, or none much better.";
     case Verdict::kInsufficient:
       return "None is offered: there are too few drives.";
     default:
@@ -231,10 +228,9 @@ class Report {
     page_.section("Parameters re-tuned");
     page_.paragraph(
         "Soils' parameters and the torque constant are logarithms of a factor on the nominal value: 0.1 is "
-        "10 % "
-        "more, 1.5 is 4.5 times as much. The others have units of their own. One that is many deviations "
-        "from what was believed of it is not to be trusted without another "
-        "look at it.");
+        "10 % more, 1.5 is 4.5 times as much. The others have units of their own. One that is many "
+        "deviations "
+        "from what was believed of it is not to be trusted without another look at it.");
     page_.table(
         {"parameter", "value, 90 % interval", "believed before, std", "deviations off", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "gap/diagnosis/held_out/effect_marginals.h"

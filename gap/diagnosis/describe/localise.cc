@@ -277,7 +277,7 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
   std::vector<PlacedWindow> windows;
   for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
     const DriveWindow& window = prepared.windows[w];
-    const Pose2& middle = window.stations[window.stations.size() / 2];
+    const Pose2& middle = window.middle();
     windows.push_back({campaign.drives[window.drive].terrain, window.drive, middle.x_m, middle.y_m,
                        prepared.model->used(w)});
   }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/angle.h"
+#include "gap/diagnosis/model/window_readings.h"
 
 namespace slipway::gap {
 
@@ -60,7 +61,7 @@ void note_turned_against_command(DriveCampaign& campaign) {
 
 namespace {
 
-// The middle of what was read of all wheels, of its size; nothing where nothing was.
+// Of what was read of all wheels, of its size; nothing where nothing was.
 std::optional<double> median_size(const DriveCampaign& campaign, double WheelReading::*quantity) {
   std::vector<double> sizes;
   for (const MeasuredDriveSeries& drive : campaign.drives)
@@ -68,48 +69,45 @@ std::optional<double> median_size(const DriveCampaign& campaign, double WheelRea
       for (const WheelReading& wheel : sample.wheels)
         if (std::isfinite(wheel.*quantity)) sizes.push_back(std::abs(wheel.*quantity));
   if (sizes.empty()) return std::nullopt;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return upper_median(std::move(sizes));
 }
 
-// The way from the first pose to the last over the commanded one, of the drive in the middle that is no turn
-// in place.
-std::optional<double> median_way(const DriveCampaign& campaign) {
-  std::vector<double> ways;
-  for (const MeasuredDriveSeries& drive : campaign.drives) {
-    if (drive.command.turn_in_place) continue;
-    std::vector<Eigen::Vector2d> places;
-    double first_s = 0.0, last_s = 0.0;
-    for (const DriveSample& sample : drive.samples) {
-      if (!sample.p_MB.head<2>().allFinite()) continue;
-      if (places.empty()) first_s = sample.time_s;
-      last_s = sample.time_s;
-      places.emplace_back(sample.p_MB.head<2>());
-    }
-    const double commanded_m = std::abs(drive.command.speed_m_s) * (last_s - first_s);
-    if (places.size() < 2 || !(commanded_m > 0.0)) continue;
-    double way_m = 0.0;
-    for (std::size_t i = 1; i < places.size(); ++i) way_m = std::max(way_m, (places[i] - places[0]).norm());
-    ways.push_back(way_m / commanded_m);
+// How far a drive led from its first pose, at most, over the commanded way; nothing of a turn in place.
+std::optional<double> way_share(const MeasuredDriveSeries& drive) {
+  const DriveSample *first = nullptr, *last = nullptr;
+  double way_m = 0.0;
+  for (const DriveSample& sample : drive.samples) {
+    if (!sample.p_MB.head<2>().allFinite()) continue;
+    if (first == nullptr) first = &sample;
+    last = &sample;
+    way_m = std::max(way_m, (sample.p_MB - first->p_MB).head<2>().norm());
   }
-  if (ways.empty()) return std::nullopt;
-  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
-  std::nth_element(ways.begin(), middle, ways.end());
-  return *middle;
+  if (first == last || drive.command.turn_in_place) return std::nullopt;
+  const double commanded_m = std::abs(drive.command.speed_m_s) * (last->time_s - first->time_s);
+  if (!(commanded_m > 0.0)) return std::nullopt;
+  return way_m / commanded_m;
+}
+
+std::optional<double> median_way_share(const DriveCampaign& campaign) {
+  std::vector<double> shares;
+  for (const MeasuredDriveSeries& drive : campaign.drives)
+    if (const auto share = way_share(drive)) shares.push_back(*share);
+  if (shares.empty()) return std::nullopt;
+  return upper_median(std::move(shares));
 }
 
 }  // namespace
 
 void note_implausible_readings(DriveCampaign& campaign) {
-  constexpr double kShortWay = 0.02,
-                   kLongWay = 3.0;  // of the commanded one: slip may be near 1, never far below 0
+  // Of the commanded way: slip may be near 1, never far below 0.
+  constexpr double kShortWay = 0.02, kLongWay = 3.0;
   constexpr double kHotMotor_c = 100.0;
   const sim::RoverModel& rover = *campaign.rover;
   const auto note = [&](std::string what) {
-    campaign.notes.push_back(what + ": check units and clock, since nothing below is right if one is wrong");
+    campaign.notes.push_back(what +
+                             ": check units and clock, since nothing that follows is right if one is wrong");
   };
-  if (const auto way = median_way(campaign); way && (*way < kShortWay || *way > kLongWay))
+  if (const auto way = median_way_share(campaign); way && (*way < kShortWay || *way > kLongWay))
     note(fmt::format("half of the drives went {} than {:.3g} of the commanded way",
                      *way < 1.0 ? "less" : "more", *way));
   const double lifting_nm = rover.mass_kg * campaign.gravity_m_s2 * rover.wheels.front().radius_m;

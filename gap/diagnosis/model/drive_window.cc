@@ -108,9 +108,9 @@ void share_first_headings(std::vector<DriveWindow>& windows) {
     const DriveWindow& before = windows[w - 1];
     DriveWindow& now = windows[w];
     if (before.drive != now.drive) continue;
-    const double turned = before.middle_yaw_rad() - before.first_yaw_rad +
-                          wrapped_rad(now.middle_yaw_rad() - before.middle_yaw_rad());
-    now.first_yaw_rad = now.middle_yaw_rad() - turned;
+    const double turned = before.middle().yaw_rad - before.first_yaw_rad +
+                          wrapped_rad(now.middle().yaw_rad - before.middle().yaw_rad);
+    now.first_yaw_rad = now.middle().yaw_rad - turned;
   }
 }
 

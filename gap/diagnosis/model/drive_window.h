@@ -26,7 +26,7 @@ struct DriveWindow {
   bool censored = false;
 
   double mid_s() const { return 0.5 * (start_s + end_s); }
-  double middle_yaw_rad() const { return stations[stations.size() / 2].yaw_rad; }
+  const Pose2& middle() const { return stations[stations.size() / 2]; }
 };
 constexpr double kCensoredSlip = 0.9;
 

@@ -108,7 +108,7 @@ void show_headings(const Values& values, const WindowModel& model, std::vector<d
   });
   for (std::size_t w = 0; w < model.windows().size(); ++w) {
     const DriveWindow& window = model.windows()[w];
-    read_along_turned_heading(model, w, error.off_rad(window.middle_yaw_rad() - window.first_yaw_rad),
+    read_along_turned_heading(model, w, error.off_rad(window.middle().yaw_rad - window.first_yaw_rad),
                               predicted);
   }
 }

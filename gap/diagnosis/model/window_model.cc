@@ -200,8 +200,8 @@ sim::PerWheel<sim::Soil> WindowModel::soils_at(std::size_t w, const Place& place
 }
 
 std::span<const WindowModel::Place> WindowModel::places_in(std::size_t w, const ModelState& state,
-                                                           bool as_nominal, std::vector<Place>& own) const {
-  if (!as_nominal) own = places_of(state.rover, state.heading_error, w);
+                                                           std::vector<Place>& own) const {
+  if (!stands_as_nominal(state)) own = places_of(state.rover, state.heading_error, w);
   return own.empty() ? stances_[w] : own;
 }
 
@@ -291,10 +291,9 @@ bool WindowModel::stands_as_nominal(const ModelState& state) const {
 
 void WindowModel::start_from(const ModelState& state, std::size_t threads) {
   std::vector<std::vector<StationStart>> starts(windows_.size());
-  const bool nominal = stands_as_nominal(state);
   parallel_for(windows_.size(), threads, [&](std::size_t w) {
     std::vector<Place> own;
-    starts[w] = starts_of(w, state, places_in(w, state, nominal, own));
+    starts[w] = starts_of(w, state, places_in(w, state, own));
   });
   starts_ = std::move(starts);
 }
@@ -311,7 +310,6 @@ std::vector<std::size_t> WindowModel::first_windows() const {
 // depend on how drives are spread.
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
   std::vector<double> out(observation_count(), kNotMeasured);
-  const bool nominal = stands_as_nominal(state);
   const std::vector<std::size_t> first = first_windows();
   parallel_for(first.size() - 1, threads, [&](std::size_t d) {
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
@@ -319,7 +317,7 @@ std::vector<double> WindowModel::predict(const ModelState& state, std::size_t th
       if (cancelled()) return;
       if (!used(w)) continue;
       std::vector<Place> own;
-      predict_window(w, state, places_in(w, state, nominal, own), {starts_[w]}, solver,
+      predict_window(w, state, places_in(w, state, own), {starts_[w]}, solver,
                      std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
     }
   });
@@ -330,7 +328,6 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
                                                            std::span<const NearState> near,
                                                            std::size_t threads) const {
   std::vector<std::vector<double>> out(near.size(), std::vector<double>(observation_count(), kNotMeasured));
-  const bool centre_nominal = stands_as_nominal(centre);
   std::vector<bool> as_centre;
   for (const NearState& n : near) as_centre.push_back(stand_alike(n.state, centre));
   const std::vector<std::size_t> first = first_windows();
@@ -341,7 +338,7 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
       if (cancelled()) return;
       if (!used(w)) continue;
       std::vector<Place> own_centre;
-      const std::span<const Place> places = places_in(w, centre, centre_nominal, own_centre);
+      const std::span<const Place> places = places_in(w, centre, own_centre);
       const std::vector<StationStart> starts = starts_of(w, centre, places);
       const std::vector<sim::BalanceGeometry> geometries = geometries_of(w, centre, places);
       for (std::size_t n = 0; n < near.size(); ++n) {
@@ -351,8 +348,7 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
         std::vector<Place> own;
         const From from{starts, true,
                         near[n].same_rover ? geometries : std::span<const sim::BalanceGeometry>{}};
-        const std::span<const Place> at =
-            as_centre[n] ? places : places_in(w, state, stands_as_nominal(state), own);
+        const std::span<const Place> at = as_centre[n] ? places : places_in(w, state, own);
         predict_window(w, state, at, from, solvers[n], values);
       }
     }

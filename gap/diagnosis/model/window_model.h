@@ -133,7 +133,7 @@ class WindowModel {
   void predict_window(std::size_t window, const ModelState& state, std::span<const Place> places,
                       const From& from, sim::QuasiStaticSolver& solver, std::span<double> out) const;
   // Where the state's rover stands in a window: `own` holds it where it does not stand as the nominal one.
-  std::span<const Place> places_in(std::size_t window, const ModelState& state, bool as_nominal,
+  std::span<const Place> places_in(std::size_t window, const ModelState& state,
                                    std::vector<Place>& own) const;
   std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
   // Of a window's stations, one or as many as it has; empty where one of them has no ground.

@@ -77,7 +77,7 @@ Circumstances circumstances_of(const WindowModel& model, std::size_t w, double s
   const WindowModel::Conditions& at = model.conditions(w);
   const sim::DriveCommand& command = window.command;
   const double speed = std::abs(command.speed_m_s);
-  const double yaw = window.middle_yaw_rad();
+  const double yaw = window.middle().yaw_rad;
   const auto last_drive = static_cast<double>(model.windows().back().drive);
   return {1.0,
           at.pitch_rad / rad_from_deg(options.pitch_deg),

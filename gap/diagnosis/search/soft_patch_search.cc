@@ -108,7 +108,7 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (model.cancelled()) return search;
     if (!model.used(w)) continue;
-    const Pose2& centre = windows[w].stations[windows[w].stations.size() / 2];
+    const Pose2& centre = windows[w].middle();
     for (const double radius_m : options.radii_m) {
       const sim::Disc disc{centre.x_m, centre.y_m, radius_m};
       const Eigen::VectorXd white =

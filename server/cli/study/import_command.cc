@@ -53,8 +53,7 @@ std::string import_words(const api::ImportedCampaign& campaign, const gap::Drive
   if (campaign.from_ned)
     out +=
         "the recorded axes are ned: in the campaign x_m is what y_m is read from and y_m what x_m is, z_m "
-        "and "
-        "pitch_deg have the other sign, and yaw_deg is 90 less it; the ranges above are the campaign's\n";
+        "and pitch_deg have the other sign, and yaw_deg is 90 less it; the ranges above are the campaign's\n";
   out += "\n" + drives_words(campaign);
   if (!campaign.passed_over.empty())
     out += fmt::format("\nnot asked for: {}\n", fmt::join(campaign.passed_over, ", "));
