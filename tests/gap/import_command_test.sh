@@ -95,10 +95,11 @@ sed -e 's/unit = "ms"/unit = "s"/; s/unit = "mA"/unit = "A"/; s/unit = "K"/unit 
 
 # Every bad time, with what is there.
 first="$(ls "$folder"/team/D*-log.csv | head -n 1)"
-sed -e '5s/^[^;]*/1699999999000/; 9s/^[^;]*//' -i "$first"
+sed -e '2s/^[^;]*//; 5s/^[^;]*/1699999999000/; 9s/^[^;]*//' -i "$first"
 status=0
 "$slipway" import "$folder/team/yard.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
-[ "$status" = 2 ] && grep -q 'line 5 (stamp_ms): 1699999999000 follows 17' "$folder/err" && grep -q 'line 9 (stamp_ms): the time is missing' "$folder/err"
+[ "$status" = 2 ] && grep -q 'line 5 (stamp_ms): 1699999999000 follows 17' "$folder/err" && grep -q 'line 9 (stamp_ms): the time is missing' "$folder/err" &&
+  grep -q 'line 2 (stamp_ms): the time is missing' "$folder/err" && grep -q '3 faults' "$folder/err"
 echo 'name = [' >"$folder/team/wrong.toml"
 status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?

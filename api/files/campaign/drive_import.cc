@@ -224,13 +224,12 @@ class Importer {
     const double zero = mapping_.clock_from_first_row ? table.rows.front()[clock] : 0.0;
     std::size_t bad = 0;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      time_s.push_back(unit * (table.rows[i][clock] - zero));
-      if (std::isfinite(time_s.back()) && (i == 0 || !(time_s[i] <= time_s[i - 1]))) continue;
-      const double now = table.rows[i][clock];
-      const std::string what = std::isfinite(now)
-                                   ? fmt::format("{} follows {}: times must increase from row to row", now,
-                                                 table.rows[i - 1][clock])
-                                   : "the time is missing";
+      const double now = table.rows[i][clock], before = i == 0 ? kMissing : table.rows[i - 1][clock];
+      time_s.push_back(unit * (now - zero));
+      if (std::isfinite(now) && !(now <= before)) continue;
+      const std::string what =
+          std::isfinite(now) ? fmt::format("{} follows {}: times must increase from row to row", now, before)
+                             : "the time is missing";
       faults_.push_back(
           {fmt::format("{}#/{}/{}", drive.file, table.lines[i], mapping_.clock_column),
            fmt::format("{}, line {} ({}): {}", drive.file, table.lines[i], mapping_.clock_column, what)});
