@@ -120,12 +120,29 @@ TEST(BoundedStep, StaysWhereEverythingIsAtItsBound) {
 
 TEST(ShortenedStep, IsHalvedUntilTheCostFalls) {
   const auto never = [] { return false; };
+  const auto answers = [] { return true; };
   // (s - 0.2)^2 from s = 0: full and half steps are worse.
   const auto cost_at = [](double share) { return (share - 0.2) * (share - 0.2); };
-  EXPECT_EQ(shortened_step(0.04, cost_at, never), 0.25);
-  EXPECT_EQ(shortened_step(2.0, cost_at, never), 1.0);
-  EXPECT_EQ(shortened_step(0.0, cost_at, never), std::nullopt) << "no share is better";
-  EXPECT_EQ(shortened_step(2.0, cost_at, [] { return true; }), std::nullopt);
+  EXPECT_EQ(shortened_step(0.04, cost_at, answers, never), 0.25);
+  EXPECT_EQ(shortened_step(2.0, cost_at, answers, never), 1.0);
+  EXPECT_EQ(shortened_step(0.0, cost_at, answers, never), std::nullopt) << "no share is better";
+  EXPECT_EQ(shortened_step(2.0, cost_at, answers, [] { return true; }), std::nullopt);
+}
+
+TEST(ShortenedStep, IsHalvedUntilTheModelAnswersAndTakenInFullWhereItDoesNot) {
+  const auto never = [] { return false; };
+  double tried = 0.0;
+  const auto cost_at = [&](double share) {
+    tried = share;
+    return 1.0 - share;
+  };
+  EXPECT_EQ(shortened_step(
+                1.0, cost_at, [&] { return tried < 0.3; }, never),
+            0.25);
+  EXPECT_EQ(shortened_step(
+                1.0, cost_at, [] { return false; }, never),
+            1.0);
+  EXPECT_EQ(tried, 1.0) << "the cost was asked for last where the step ends";
 }
 
 // y = A x + e with x ~ N(0, S), e ~ N(0, V): the posterior is normal, and the evidence N(y; 0, V + A S A^T).
@@ -209,6 +226,28 @@ TEST(FindMode, TakesAnObservationWithoutAnAnswerForOneThatIsFarOffUnlessTheRover
   EXPECT_DOUBLE_EQ(mode.residuals[1], 3.0 * 0.5);
   EXPECT_DOUBLE_EQ(mode.residuals[2], 1.0 * 0.25);
   EXPECT_DOUBLE_EQ(mode.log_evidence, -0.5 * (3.0 * 3.0 + 1.0));
+}
+
+// Beyond x = 0.5 the model says of its second observation that the rover would stand.
+class Slope : public LinearModel {
+ public:
+  explicit Slope(double measured)
+      : LinearModel(Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(measured, 0.0), Eigen::Vector2d(0.1, 1.0),
+                    {parameter(1.0)}) {}
+  std::vector<double> predict(std::span<const double> x) const override {
+    std::vector<double> f = LinearModel::predict(x);
+    if (x[0] > 0.5) f[1] = std::numeric_limits<double>::quiet_NaN();
+    return f;
+  }
+};
+
+TEST(FindMode, DoesNotStepWhereTheRoverWouldStandUnlessNothingElseIsBetter) {
+  const PosteriorMode mode = find_mode(Slope(0.7), std::vector<double>{0.0}, {});
+  EXPECT_EQ(mode.unanswered, 0) << "a step to 0.69 would lower the cost, and leave it above that at 0.5";
+  EXPECT_NEAR(mode.x[0], 0.5, 0.05);
+  const PosteriorMode over = find_mode(Slope(2.0), std::vector<double>{0.0}, {});
+  EXPECT_EQ(over.unanswered, 1);
+  EXPECT_NEAR(over.x[0], 2.0, 0.05);
 }
 
 // A prior of one side only holds its probability on half the room.

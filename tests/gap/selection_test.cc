@@ -64,7 +64,7 @@ TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
 }
 
 TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
-  std::vector<Candidate> c{candidate({"a"}, 0.0), candidate({}, 0.0)};
+  std::vector<Candidate> c{candidate({"a"}, 0.0), candidate({"b"}, 0.0)};
   c[0].log_evidence = 200.0;  // a tenth of the share leaves a little to the other
   c[0].log_prior = c[1].log_prior = std::log(0.5);
   weigh(c, EvidenceOptions{});
@@ -76,6 +76,23 @@ TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
   c[0].log_evidence = std::log(3.0);
   weigh(c, all_of_it);
   EXPECT_NEAR(c[0].probability, 0.75, 1e-12) << "Bayes's theorem";
+}
+
+// A third more of it tells that something is missing, whichever it is.
+TEST(Weigh, BelievesMoreOfTheEvidenceThatSomethingIsMissingThanOfWhichItIs) {
+  std::vector<Candidate> c{candidate({}, 0.0), candidate({"a"}, 0.0), candidate({}, 0.0, true)};
+  c[1].log_evidence = 9.0;
+  c[2].log_evidence = 3.0;
+  EvidenceOptions options;
+  options.shares = {EvidenceShare{0.5, 1.0}};
+  options.of_missing = 2.0;
+  weigh(c, options);
+  EXPECT_NEAR(std::log(c[1].probability / c[0].probability), 9.0, 1e-12);
+  EXPECT_NEAR(std::log(c[1].probability / c[2].probability), 3.0, 1e-12);
+  c[1].log_evidence = -2.0;
+  c[2].log_evidence = -8.0;
+  weigh(c, options);
+  EXPECT_NEAR(std::log(c[1].probability / c[0].probability), -1.0, 1e-12) << "nothing is missing";
 }
 
 // Counting a group twice is having its rows twice.

@@ -1,8 +1,10 @@
 // sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only
-// CAUSE,...]
+// CAUSE[+CAUSE],...] [--alone yes|no]
 // [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]
 // [--measured soil|soil,closures]
 //
+// Only: of the set those campaigns with one of these causes, or with all that are joined by +; alone: without
+// another cause.
 // Measured: campaign.json says how well soil (and closures) were measured apart from the drives.
 // With --drives only so many of a campaign's drives are made, of all kinds; --more adds those of a file,
 // whose lines are campaign,tilt_deg,heading_deg,speed_m_s,curvature_1_m,motor_temp_c (of tables alone; the
@@ -37,7 +39,8 @@ using namespace slipway::gap_benchmark;
 
 constexpr const char* kUsage =
     "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]\n"
-    "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n"
+    "                        [--only CAUSE[+CAUSE],...] [--alone yes|no]\n"
+    "                        [--fidelity L1|L2|L2c|L3] [--size X]\n"
     "                        [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]\n"
     "                        [--measured soil|soil,closures]\n";
 
@@ -47,7 +50,8 @@ constexpr std::uint64_t kMoreSeed = 0xadd;        // of drives that are added
 struct Wish {
   std::string out, set = "blind";
   std::uint64_t seed = 1;
-  std::vector<std::string> only;
+  std::vector<std::vector<std::string>> only;  // causes that go together
+  bool alone = false;
   std::optional<Fidelity> fidelity;
   std::optional<double> size;
   bool references = false, measured_soil = false, measured_closures = false;
@@ -122,8 +126,14 @@ std::optional<Wish> wish_of(int count, char** words) {
       if (!wish.fidelity) return std::nullopt;
     } else if (word == "--only") {
       std::istringstream names(value);
-      for (std::string name; std::getline(names, name, ',');) {
-        if (!is_known_cause(name)) {
+      for (std::string together; std::getline(names, together, ',');) {
+        std::istringstream causes(together);
+        std::vector<std::string>& all = wish.only.emplace_back();
+        for (std::string name; std::getline(causes, name, '+');) {
+          if (is_known_cause(name)) {
+            all.push_back(name);
+            continue;
+          }
           std::cerr << name << " is no cause; known are";
           for (const std::string_view known : library_effects()) std::cerr << ' ' << known;
           for (const std::string_view known : foreign_causes()) std::cerr << ' ' << known;
@@ -131,8 +141,9 @@ std::optional<Wish> wish_of(int count, char** words) {
           std::cerr << '\n';
           return std::nullopt;
         }
-        wish.only.push_back(name);
       }
+    } else if (word == "--alone") {
+      wish.alone = value == "yes";
     } else {
       return std::nullopt;
     }
@@ -157,9 +168,14 @@ int main(int count, char** words) {
   }
   if (!wish->only.empty())
     std::erase_if(*cases, [&](const CampaignCase& made_of) {
-      return std::none_of(made_of.causes.begin(), made_of.causes.end(), [&](const std::string& cause) {
-        return std::find(wish->only.begin(), wish->only.end(), cause) != wish->only.end();
-      });
+      const auto has = [&](const std::string& cause) {
+        return std::find(made_of.causes.begin(), made_of.causes.end(), cause) != made_of.causes.end();
+      };
+      return (wish->alone && made_of.causes.size() > 1) ||
+             std::none_of(wish->only.begin(), wish->only.end(),
+                          [&](const std::vector<std::string>& together) {
+                            return std::all_of(together.begin(), together.end(), has);
+                          });
     });
   if (wish->size)
     for (CampaignCase& made_of : *cases) made_of.size = *wish->size;

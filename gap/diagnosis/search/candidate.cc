@@ -19,6 +19,20 @@ double log_sum_exp(const std::vector<double>& values) {
   return most + std::log(sum);
 }
 
+bool says_nothing(const Candidate& c) {
+  return c.effects.empty() && !c.with_unknown;
+}
+
+// By how much the best set with something in it has more evidence than nothing: 0 at least, and where nothing
+// was not compared.
+double evidence_of_missing(std::span<const Candidate> candidates) {
+  const auto nothing = std::find_if(candidates.begin(), candidates.end(), says_nothing);
+  if (nothing == candidates.end()) return 0.0;
+  double most = nothing->log_evidence;
+  for (const Candidate& c : candidates) most = std::max(most, c.log_evidence);
+  return most - nothing->log_evidence;
+}
+
 }  // namespace
 
 std::vector<std::string> library_effects_of(const Candidate& candidate) {
@@ -62,10 +76,11 @@ void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
   for (Candidate& c : candidates) c.probability = 0.0;
   const std::span<const EvidenceShare> shares =
       options.whole ? std::span<const EvidenceShare>(kWholeEvidence) : options.shares;
+  const double further = options.whole ? 0.0 : (options.of_missing - 1.0) * evidence_of_missing(candidates);
   for (const EvidenceShare& belief : shares) {
     std::vector<double> weights;
     for (const Candidate& c : candidates) {
-      double weight = belief.share * c.log_evidence + c.log_prior;
+      double weight = belief.share * (c.log_evidence + (says_nothing(c) ? 0.0 : further)) + c.log_prior;
       for (const std::vector<double>& of_effect : c.other_variants) {
         double variants = 1.0;
         for (const double less : of_effect) variants += std::exp(belief.share * less);

@@ -76,10 +76,12 @@ void list_preparation(const PreparationOptions& options, Lister& list) {
 
 void list_fit(const FitOptions& options, Lister& list) {
   list.step("fit");
-  const auto& [huber, no_answer, both_stuck, tolerance, min_fall, max_iterations] = options;
+  const auto& [huber, no_answer, both_stuck, stronger_friction, tolerance, min_fall, max_iterations] =
+      options;
   SLIPWAY_FIELD(huber);
   SLIPWAY_FIELD(no_answer);
   SLIPWAY_FIELD(both_stuck);
+  SLIPWAY_FIELD(stronger_friction);
   SLIPWAY_FIELD(tolerance);
   SLIPWAY_FIELD(min_fall);
   SLIPWAY_FIELD(max_iterations);
@@ -166,7 +168,7 @@ void list_priors(const PriorOptions& options, Lister& list) {
 
 void list_evidence(const EvidenceOptions& options, Lister& list) {
   list.step("evidence");
-  const auto& [pairs, whole] = options;
+  const auto& [pairs, of_missing, whole] = options;
   std::array<double, std::tuple_size_v<std::remove_cvref_t<decltype(pairs)>>> shares{}, weights{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     shares[i] = pairs[i].share;
@@ -174,6 +176,7 @@ void list_evidence(const EvidenceOptions& options, Lister& list) {
   }
   SLIPWAY_FIELD(shares);
   SLIPWAY_FIELD(weights);
+  SLIPWAY_FIELD(of_missing);
   SLIPWAY_FIELD(whole);
 }
 

@@ -30,6 +30,9 @@ struct FitOptions {
   // as much as the loss still takes in full.
   double no_answer = 4.0;
   double both_stuck = 1.0;  // the same where the rover hardly moved either: as much as noise does
+  // Prior deviations of soils' friction by which they are made stronger for a second fit, where the first
+  // says of a rover that drove on that it would not move.
+  double stronger_friction = 1.5;
   double tolerance = 1e-3;  // of a step, in the parameters' own standard errors
   double min_fall = 0.02;   // of the cost in an iteration: evidences that differ by less are not told apart
   int max_iterations = 12;
@@ -138,6 +141,9 @@ struct EvidenceShare {
 };
 struct EvidenceOptions {
   std::array<EvidenceShare, 2> shares{EvidenceShare{0.3, 0.85}, EvidenceShare{0.03, 0.15}};
+  // That something is missing is believed by so many times the share that is believed of which it is:
+  // simulators are further apart in what an effect looks like than in what drives without one look like.
+  double of_missing = 4.0 / 3.0;
   bool whole = false;  // believed as it stands, for ablations
 };
 

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace slipway::gap {
 namespace {
+
+// Steps by which soils are made stronger at most.
+constexpr int kMaxStronger = 4;
 
 // A hypothesis on recorded drives, as what a mode is searched of.
 class SimulatedDrives : public FittedModel {
@@ -50,6 +54,22 @@ std::vector<double> extended(const Hypothesis& hypothesis, std::span<const doubl
   std::vector<double> start = hypothesis.neutral();
   std::copy(x.begin(), x.end(), start.begin());
   return start;
+}
+
+// Where on stronger soils the model answers rows that it does not at the fit, a few steps of friction away.
+std::optional<std::vector<double>> where_it_answers(const SimulatedDrives& drives,
+                                                    const Hypothesis& hypothesis, const PosteriorMode& mode,
+                                                    const FitOptions& options,
+                                                    const std::vector<bool>& fitted_rows) {
+  const auto parameters = hypothesis.parameters();
+  std::vector<double> x = mode.x;
+  for (int step = 0; step < kMaxStronger && !drives.cancelled(); ++step) {
+    for (std::size_t p = 0; p < hypothesis.nuisance_count(); ++p)
+      if (parameters[p].quantity == SoilQuantity::kFriction)
+        x[p] = std::min(parameters[p].highest, x[p] + options.stronger_friction * parameters[p].std);
+    if (unanswered_rows(drives, drives.predict(x), fitted_rows) < mode.unanswered) return x;
+  }
+  return std::nullopt;
 }
 
 // What reference drives left open of the difference stands beside every explanation.
@@ -112,12 +132,19 @@ Eigen::VectorXd measured(const WindowModel& model) {
   return y;
 }
 
+void keep_better(FittedExplanation& fit, FittedExplanation other) {
+  if (other.log_evidence > fit.log_evidence) fit = std::move(other);
+}
+
 FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
                                   const NoiseModel& noise, std::span<const double> start,
                                   const FitOptions& options, std::size_t threads,
                                   const std::vector<bool>& fitted_rows) {
-  FittedExplanation fit{
-      find_mode(SimulatedDrives(hypothesis, model, noise, threads), start, options, fitted_rows), hypothesis};
+  const SimulatedDrives drives(hypothesis, model, noise, threads);
+  FittedExplanation fit{find_mode(drives, start, options, fitted_rows), hypothesis};
+  if (fit.unanswered > 0 && options.max_iterations > 0)
+    if (const auto start_there = where_it_answers(drives, hypothesis, fit, options, fitted_rows))
+      keep_better(fit, {find_mode(drives, *start_there, options, fitted_rows), hypothesis});
   leave_open(model, noise, fit);
   return fit;
 }

@@ -19,6 +19,10 @@ struct FittedExplanation : PosteriorMode {
   Hypothesis hypothesis;
 };
 
+// Of two fits of one hypothesis the one with more evidence. A mode is the nearest to where its search began,
+// so that what matters is fitted from more than one place.
+void keep_better(FittedExplanation& fit, FittedExplanation other);
+
 // Rows of `fitted_rows` alone weigh (empty: all).
 FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
                                   const NoiseModel& noise, std::span<const double> start,

@@ -1,6 +1,7 @@
 #include "gap/diagnosis/search/own_scatter.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -84,10 +85,16 @@ std::vector<std::size_t> foremost(std::vector<Candidate> candidates, const Evide
   return fits;
 }
 
-bool has_place(const FittedExplanation& fit) {
-  const auto effects = fit.hypothesis.effects();
-  return std::any_of(effects.begin(), effects.end(),
-                     [](const EffectVariant& v) { return place_of(v).has_value(); });
+// What acts at a place in the first, at the place that it has in the second; none where it is there already.
+std::optional<Hypothesis> at_place_of(const DriveCampaign& campaign, const FittedExplanation& fit,
+                                      const FittedExplanation& other) {
+  const auto own = placed_effect(fit), there = placed_effect(other);
+  if (!own || !there) return std::nullopt;
+  std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
+  const EffectVariant& moved = other.hypothesis.effects()[*there];
+  if (effects[*own].effect != moved.effect || effects[*own].label == moved.label) return std::nullopt;
+  effects[*own] = moved;
+  return Hypothesis(campaign, effects);
 }
 
 }  // namespace
@@ -98,20 +105,39 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
                               ExplanationSearch& search) {
   if (campaign.reference) return;
   const auto most = static_cast<std::size_t>(options.search.max_scattered);
-  for (const std::size_t index : foremost(search.candidates, options.evidence, most)) {
-    if (progress.cancelled()) return;
+  const std::vector<std::size_t> compared = foremost(search.candidates, options.evidence, most);
+  // A fit, or the same with its effect at another place, beside its own scatter.
+  const auto compare = [&](std::size_t index, const FittedExplanation& fit) {
     progress.report("estimating the scatter beside explanations", 0.74);
-    const ScatteredExplanation own =
-        ScatterSearch(campaign, model, noise, discrepancy, options).beside(search.fits[index]);
+    const ScatteredExplanation own = ScatterSearch(campaign, model, noise, discrepancy, options).beside(fit);
+    bool better = false;
     for (Candidate& c : search.candidates) {
       const double evidence = c.with_unknown ? own.with_something_else : own.alone;
       if (c.fit != index || evidence <= c.log_evidence) continue;
       c.log_evidence = evidence;
       c.scatter = own.scales;
+      better = better || !c.with_unknown;
     }
-    if (has_place(own.fit))
+    if (better && placed_effect(own.fit))
       search.fits[index] =
           fit_explanation(own.fit.hypothesis, model, noise, own.fit.x, options.fit, options.search.threads);
+  };
+  for (const std::size_t index : compared) {
+    if (progress.cancelled()) return;
+    compare(index, search.fits[index]);
+  }
+  // Where the best of them found an effect at work, the others may not have looked.
+  rank(search.candidates, options.evidence);
+  const auto best = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
+    return placed_effect(search.fits[c.fit]).has_value();
+  });
+  if (best == search.candidates.end()) return;
+  const std::size_t best_fit = best->fit;
+  for (const std::size_t index : compared) {
+    if (progress.cancelled()) return;
+    if (const auto there = at_place_of(campaign, search.fits[index], search.fits[best_fit]))
+      compare(index, fit_explanation(*there, model, noise, search.fits[index].x, options.fit,
+                                     options.search.threads));
   }
 }
 

@@ -22,6 +22,7 @@ struct Trial {
   std::vector<double> x, predicted;
   Eigen::VectorXd residuals, white, u;
   double cost = 0.0;
+  int unanswered = 0;
 };
 
 class ModeSearch {
@@ -57,6 +58,7 @@ class ModeSearch {
       const double f = trial.predicted[static_cast<std::size_t>(i)];
       trial.residuals[i] = std::isfinite(f) ? y[i] - f : without_answer(i) * model_.deviation()[i];
     }
+    trial.unanswered = unanswered_rows(model_, trial.predicted, fitted_rows_);
     trial.white = model_.whiten(trial.residuals);
     trial.u = in_prior_units(model_.parameters(), trial.x);
     trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_, precision_);
@@ -107,7 +109,8 @@ class ModeSearch {
       trial = trial_at(std::move(x));
       return trial.cost;
     };
-    if (const auto share = shortened_step(at_.cost, cost_at, [&] { return model_.cancelled(); })) {
+    const auto answers = [&] { return trial.unanswered <= at_.unanswered; };
+    if (const auto share = shortened_step(at_.cost, cost_at, answers, [&] { return model_.cancelled(); })) {
       const double fall = at_.cost - trial.cost;
       converged_ = fall < options_.min_fall || *share * largest < options_.tolerance;
       near_ = fall < kNear;
@@ -137,6 +140,7 @@ class ModeSearch {
     mode.jacobian = std::move(jacobian_);
     mode.covariance = std::move(covariance_);
     mode.converged = converged_;
+    mode.unanswered = at_.unanswered;
     return mode;
   }
 
@@ -177,6 +181,16 @@ LinearProblem without_held(LinearProblem problem, const PosteriorMode& mode) {
 }
 
 }  // namespace
+
+int unanswered_rows(const FittedModel& model, std::span<const double> predicted,
+                    const std::vector<bool>& fitted_rows) {
+  int count = 0;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(predicted.size()); ++i)
+    if (!std::isfinite(predicted[static_cast<std::size_t>(i)]) && !model.stood(i) &&
+        is_fitted(fitted_rows, i))
+      ++count;
+  return count;
+}
 
 Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<const double> x) {
   Eigen::VectorXd u(static_cast<Eigen::Index>(x.size()));

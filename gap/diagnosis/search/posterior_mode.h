@@ -55,6 +55,7 @@ struct PosteriorMode {
   Eigen::MatrixXd covariance;   // of (x - neutral) over the prior deviations
   double log_evidence = 0.0;    // of the drives, up to a constant common to all explanations
   bool converged = false;
+  int unanswered = 0;  // see unanswered_rows
   // Parameters that a bound holds where the drives would move them beyond it, with their u. Not told with a
   // prior precision, whose directions mix what is re-tuned.
   std::vector<std::pair<Eigen::Index, double>> held;
@@ -76,6 +77,10 @@ PosteriorMode find_mode(const FittedModel& model, std::span<const double> start,
                         const std::vector<bool>& fitted_rows = {});
 
 // The parts of it.
+
+// Of what a model predicts, the fitted rows in which it has no answer though the rover drove on.
+int unanswered_rows(const FittedModel& model, std::span<const double> predicted,
+                    const std::vector<bool>& fitted_rows);
 
 // u of x.
 Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<const double> x);
@@ -105,13 +110,21 @@ Eigen::MatrixXd prior_root(const Eigen::MatrixXd& precision);
 Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                              const Eigen::VectorXd& low, const Eigen::VectorXd& high);
 
-// The largest share 1, 1/2, 1/4, 1/8, 1/16 of a step at which `cost_at` is below `cost`; none where no share
-// is or the work is cancelled.
-template <class CostAt, class Cancelled>
-std::optional<double> shortened_step(double cost, const CostAt& cost_at, const Cancelled& cancelled) {
-  for (double share = 1.0; share > 0.05 && !cancelled(); share *= 0.5)
-    if (!(cost_at(share) >= cost)) return share;
-  return std::nullopt;
+// The largest share 1, 1/2, 1/4, 1/8, 1/16 of a step at which `cost_at` is below `cost` and what was tried
+// `answers` as many rows as before; without such a share the largest that lowers the cost; none where no
+// share does or the work is cancelled. Beyond the slope that a rover climbs a model has no answer and no
+// derivatives, so that a fit that steps there does not find back. `cost_at` was called last with the answer.
+template <class CostAt, class Answers, class Cancelled>
+std::optional<double> shortened_step(double cost, const CostAt& cost_at, const Answers& answers,
+                                     const Cancelled& cancelled) {
+  std::optional<double> lower;
+  for (double share = 1.0; share > 0.05 && !cancelled(); share *= 0.5) {
+    if (cost_at(share) >= cost) continue;
+    if (answers()) return share;
+    if (!lower) lower = share;
+  }
+  if (lower) cost_at(*lower);
+  return lower;
 }
 
 // Laplace's approximation: the logarithm of the integral of exp(-J) over u with the prior's constant, by the

@@ -36,13 +36,15 @@ std::optional<sim::Disc> whole_map(std::span<const DriveWindow> windows) {
   return sim::Disc{x_m / static_cast<double>(count), y_m / static_cast<double>(count), kWholeMap_m};
 }
 
-// What weaker soil everywhere would do to every observation, for a prior deviation of the weakening.
+// What weaker soil everywhere would do to every observation beside all that is in the fit, for a prior
+// deviation of the weakening.
 Eigen::VectorXd weaker_everywhere(const DriveCampaign& campaign, const WindowModel& model,
                                   const FittedExplanation& fit, const sim::Effect& effect,
                                   const sim::Disc& all) {
-  const Hypothesis everywhere(campaign, {variant_at(effect, all)});
-  std::vector<double> x(fit.x.begin(),
-                        fit.x.begin() + static_cast<std::ptrdiff_t>(everywhere.nuisance_count()));
+  std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
+  effects.push_back(variant_at(effect, all));
+  const Hypothesis everywhere(campaign, effects);
+  std::vector<double> x = fit.x;
   x.push_back(0.0);
   const std::vector<double> at = everywhere.predict(model, x);
   x.back() = kProbe;
@@ -124,15 +126,20 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
   return search;
 }
 
+std::optional<std::size_t> placed_effect(const FittedExplanation& fit) {
+  const auto effects = fit.hypothesis.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (place_of(effects[e])) return e;
+  return std::nullopt;
+}
+
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
                                     const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
                                     const SoftPatchOptions& patch_options, std::size_t threads) {
-  const auto effects = fit.hypothesis.effects();
-  const auto found = std::find_if(effects.begin(), effects.end(),
-                                  [](const EffectVariant& v) { return place_of(v).has_value(); });
-  if (found == effects.end()) return fit;
-  const sim::Effect& effect = *sim::find_effect(found->effect);
-  const auto which = static_cast<std::size_t>(found - effects.begin());
+  const std::optional<std::size_t> placed = placed_effect(fit);
+  if (!placed) return fit;
+  const std::size_t which = *placed;
+  const sim::Effect& effect = *sim::find_effect(fit.hypothesis.effects()[which].effect);
   FitOptions quick = options;
   quick.max_iterations = kMaxIterations;
   const auto disc = [&] { return *place_of(fit.hypothesis.effects()[which]); };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct PatchSearch {
 PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
                                 const WindowModel& model, const NoiseModel& noise,
                                 const FittedExplanation& fit, const SoftPatchOptions& options);
+
+// Which of a fit's effects is at work at a place.
+std::optional<std::size_t> placed_effect(const FittedExplanation& fit);
 
 // The patch of a fitted explanation moved and resized while that raises its evidence.
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
