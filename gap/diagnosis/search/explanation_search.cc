@@ -118,8 +118,7 @@ class Searcher {
       std::set<std::string> done;
       // Places that nothing but this effect leaves to be seen.
       const std::size_t known = variants_.size();
-      if (s == 0 && !base_outside && !placed_effect(search_.fits[base]))
-        add_places_beside(search_.fits[base]);
+      if (!base_outside && !placed_effect(search_.fits[base])) add_places_beside(search_.fits[base]);
       for (std::size_t v = known; v < variants_.size(); ++v) seconds.push_back(v);
       for (const ScreenedEffect& second : screened_beside(search_.fits[base], &seconds)) {
         if (progress_.cancelled()) return;

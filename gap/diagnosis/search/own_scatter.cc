@@ -85,16 +85,21 @@ std::vector<std::size_t> foremost(std::vector<Candidate> candidates, const Evide
   return fits;
 }
 
-// What acts at a place in the first, at the place that it has in the second; none where it is there already.
+// The first, which has a part of the second's effects, with the effect that acts at a place where the second
+// has it; none where it is there already.
 std::optional<Hypothesis> at_place_of(const DriveCampaign& campaign, const FittedExplanation& fit,
                                       const FittedExplanation& other) {
   const auto own = placed_effect(fit), there = placed_effect(other);
   if (!own || !there) return std::nullopt;
-  std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-  const EffectVariant& moved = other.hypothesis.effects()[*there];
-  if (effects[*own].effect != moved.effect || effects[*own].label == moved.label) return std::nullopt;
-  effects[*own] = moved;
-  return Hypothesis(campaign, effects);
+  const auto effects = fit.hypothesis.effects(), of_other = other.hypothesis.effects();
+  const bool part = std::all_of(effects.begin(), effects.end(), [&](const EffectVariant& v) {
+    return std::any_of(of_other.begin(), of_other.end(),
+                       [&](const EffectVariant& o) { return o.effect == v.effect; });
+  });
+  if (!part || effects[*own].label == of_other[*there].label) return std::nullopt;
+  std::vector<EffectVariant> moved(effects.begin(), effects.end());
+  moved[*own] = of_other[*there];
+  return Hypothesis(campaign, moved);
 }
 
 }  // namespace
@@ -126,7 +131,7 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
     if (progress.cancelled()) return;
     compare(index, search.fits[index]);
   }
-  // Where the best of them found an effect at work, the others may not have looked.
+  // Where the best of them found an effect at work, a part of it may not have looked.
   rank(search.candidates, options.evidence);
   const auto best = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
     return placed_effect(search.fits[c.fit]).has_value();
