@@ -97,9 +97,9 @@ class Searcher {
     singles_.assign(best_fit_.begin(), best_fit_.end());
     for (const auto& [effect, index] : singles_) {
       FittedExplanation& fit = search_.fits[index];
-      // A reference has told of soils and closures, which go nowhere in an effect's place then.
-      const bool in_its_place = !campaign_.reference && !is_outside(effect);
-      if (!in_its_place && !went_far(fit, options_.search.max_linear_shift)) continue;
+      // Re-tuned soils may stand in an effect's place, unless a reference has told of them.
+      const bool may_be_replaced = !campaign_.reference && !is_outside(effect);
+      if (!may_be_replaced && !went_far(fit, options_.search.max_linear_shift)) continue;
       fit_from_neutral(fit);
       const auto at = screened_as(fit.hypothesis.effects().front());
       if (at != screened_.end()) evidence_of_[at->variant] = fit.log_evidence;
