@@ -96,6 +96,7 @@ class Searcher {
     }
     singles_.assign(best_fit_.begin(), best_fit_.end());
     for (const auto& [effect, index] : singles_) {
+      if (progress_.cancelled()) return;
       FittedExplanation& fit = search_.fits[index];
       // Re-tuned soils may stand in an effect's place, unless a reference has told of them.
       const bool may_be_replaced = !campaign_.reference && !is_outside(effect);
