@@ -164,7 +164,10 @@ class Diagnoser {
     const CauseShares cause_shares{
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
-    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, options_.verdict);
+    const auto believable = [&](const Candidate& c) {
+      return !closure_beyond_belief(search_.fits[c.fit], options_.verdict);
+    };
+    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, believable, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);

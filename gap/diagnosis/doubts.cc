@@ -63,20 +63,6 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& reporte
   return std::nullopt;
 }
 
-// What only another wheel law would ask for.
-std::optional<std::string> closure_beyond_belief(const FittedExplanation& reported,
-                                                 const VerdictOptions& options) {
-  for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
-    const Parameter& parameter = reported.hypothesis.parameters()[p];
-    const double deviations = deviations_of(reported, p);
-    if (parameter.kind == NuisanceKind::kClosure && has_far_ends(parameter) &&
-        std::abs(deviations) > options.max_closure_shift)
-      return fmt::format("{} would be {:+.1f} deviations from what was believed of it", parameter.name,
-                         deviations);
-  }
-  return std::nullopt;
-}
-
 std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
                                                  const VerdictOptions& options) {
   if (!scatter || scatter->deviations <= options.max_scatter) return std::nullopt;
@@ -220,6 +206,19 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
 }
 
 }  // namespace
+
+std::optional<std::string> closure_beyond_belief(const FittedExplanation& fit,
+                                                 const VerdictOptions& options) {
+  for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = fit.hypothesis.parameters()[p];
+    const double deviations = deviations_of(fit, p);
+    if (parameter.kind == NuisanceKind::kClosure && has_far_ends(parameter) &&
+        std::abs(deviations) > options.max_closure_shift)
+      return fmt::format("{} would be {:+.1f} deviations from what was believed of it", parameter.name,
+                         deviations);
+  }
+  return std::nullopt;
+}
 
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {
   if (d.verdict != Verdict::kEffects) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/noise_model.h"
@@ -24,6 +25,10 @@ struct ReportedAnswer {
   double log_evidence = 0.0;              // over that of nothing missing
   std::optional<ScaleOffBelief> scatter;  // furthest above belief; none where a reference told of it
 };
+
+// A parameter of the wheel law that an explanation bends beyond VerdictOptions::max_closure_shift, in words:
+// only another wheel law would ask for that. Nothing where all are within.
+std::optional<std::string> closure_beyond_belief(const FittedExplanation& fit, const VerdictOptions& options);
 
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,

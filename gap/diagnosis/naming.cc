@@ -51,7 +51,7 @@ bool is_law(const std::string& cause) {
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
 // alone stays: nothing else says what is there.
 std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
-                      const VerdictOptions& options) {
+                      const Believable& believable, const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
   double most_of_laws = 0.0;
@@ -69,9 +69,12 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
           shares.beside_others(cause) >= options.min_share_of_rest)
         kept.insert(cause);
   }
-  for (std::size_t c = 0; c < search.candidates.size(); ++c)
-    if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == kept) return c;
-  return chosen;  // their sum was not compared without the others
+  const auto rest = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
+    return !c.with_unknown && set_of(c.effects) == kept;
+  });
+  if (rest == search.candidates.end()) return chosen;  // it was not compared without the others
+  if (believable(first) && !believable(*rest)) return chosen;
+  return static_cast<std::size_t>(rest - search.candidates.begin());
 }
 
 Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
@@ -88,9 +91,9 @@ bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions&
 
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
-                    const VerdictOptions& options) {
+                    const Believable& believable, const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
-  chosen = of_weight(search, chosen, shares, options);
+  chosen = of_weight(search, chosen, shares, believable, options);
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;

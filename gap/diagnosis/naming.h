@@ -31,12 +31,16 @@ struct CauseShares {
   Share beside_others;  // ClosedShares::beside_others
 };
 
+// Whether soils and laws are where they may be in an explanation (doubts.h).
+using Believable = std::function<bool(const Candidate& candidate)>;
+
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
 // less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; so is
 // a law of ground or motors beside another, of which it closes less than min_share_of_law: that much another
 // equation of the other one may close. Beside an effect that closes more, an effect is left out only if it
 // also closes less than min_share_of_rest of what the other leaves, where either of the two has one form:
-// what is left is then not the other form of the one that another could mimic. Where nothing unknown is among
+// what is left is then not the other form of the one that another could mimic. Nothing is left out without
+// which a law would no longer be believable that is with it. Where nothing unknown is among
 // the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
 // probability and share reach min_partial_probability and min_partial_share; of several these must stand
 // together in an explanation that was compared. Where what was chosen is a cause from outside, so that the
@@ -44,7 +48,7 @@ struct CauseShares {
 // min_probability_closing_most of an effect that closes min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
-                    const VerdictOptions& options);
+                    const Believable& believable, const VerdictOptions& options);
 
 // Whether an effect may be named beside something unknown.
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);

@@ -2,16 +2,35 @@
 
 #include <array>
 
+#include "core/angle.h"
+
 namespace slipway::sim {
 namespace {
 
 constexpr std::array kFields{
     Field{"share", "1", "share of the soil's bearing capacity that acts on the side wall", 0.0, 5.0, 1.0,
           0.0},
+    Field{"mobilised_deg", "deg",
+          "slip angle at which 71 % of that acts; 90: it grows with the angle's sine, near 0: all of it acts "
+          "from "
+          "the first",
+          1.0, 90.0, 90.0, 90.0},
 };
 
 void change(std::span<const double> values, Soil& soil) {
   soil.side_bulldozing = values[0];
+  soil.side_mobilised_rad = rad_from_deg(values[1]);
+}
+
+// Authors differ in how soon the soil's passive pressure acts: with the sine of the slip angle [ARTEMIS], or
+// in full whenever the wheel slides sideways [Ishigami et al. 2007], which over some degrees is smooth here.
+std::vector<EffectVariant> variants(const RoverModel& /*rover*/) {
+  const EffectVariant::Free share = free_field(kFields, "share", 1.0);
+  EffectVariant::Free early = free_field(kFields, "mobilised_deg", 3.0);
+  early.neutral = 5.0;
+  early.highest = 20.0;
+  return {{.label = "with the sine of the slip angle", .free = {share}, .fixed = {{"mobilised_deg", 90.0}}},
+          {.label = "in full from a small slip angle on", .free = {share, early}}};
 }
 
 EffectParameters hidden(const HiddenDraw& draw) {
@@ -23,9 +42,10 @@ EffectParameters hidden(const HiddenDraw& draw) {
 constexpr Effect kSideBulldozing{
     .name = "side_bulldozing",
     .summary = "the soil that a wheel's side wall pushes aside resists its side slip",
-    .reference = "ARTEMIS eq. 12 to 14, 19",
+    .reference = "ARTEMIS eq. 12 to 14, 19; [Ishigami et al. 2007]",
     .fields = kFields,
     .on_soil = &change,
+    .variants = &variants,
     .has_many_forms = true,
     .hidden = &hidden};
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -79,9 +80,11 @@ struct Soil {
   double slip_directed = 0.0;
 
   // Effects; all off at these values. See the catalogue of effects.
-  double bulldozing = 0.0;           // share of Rankine's passive pressure on the front
-  double track_bulldozing = 0.0;     // share of that before a wheel that runs in a track
-  double side_bulldozing = 0.0;      // share of Terzaghi's bearing capacity on the side walls
+  double bulldozing = 0.0;        // share of Rankine's passive pressure on the front
+  double track_bulldozing = 0.0;  // share of that before a wheel that runs in a track
+  double side_bulldozing = 0.0;   // share of Terzaghi's bearing capacity on the side walls
+  // Slip angle at which most of that acts: side_wall_mobilisation().
+  double side_mobilised_rad = 0.5 * M_PI;
   double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
   double rate_shear_speed_m_s = 0.04;
   double multipass_stiffening = 0.0;  // a track is 1 + this times as stiff as fresh soil

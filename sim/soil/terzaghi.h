@@ -46,4 +46,16 @@ V side_wall_force_n(const V& radius_m, const V& theta_f, const V& sin_f, const V
   return unit_weight_n_m3 * factors.n_gamma * square + cohesion_pa * factors.n_c * area;
 }
 
+// The share, with its sign, of the side wall's resistance that acts at a slip angle beta:
+//
+//   sin(beta) / sqrt(sin(a)^2 + cos(a)^2 sin(beta)^2)
+//
+// At a = 90 deg it is sin(beta) [ARTEMIS eq. 19]; with a small a nearly all of it acts as soon as the wheel
+// slides sideways, as where R_b does not depend on the slip angle [Ishigami et al. 2007]; at beta = a it is
+// 1 / sqrt(1 + cos(a)^2).
+template <class V>
+V side_wall_mobilisation(const V& sin_beta, const V& squared_sin_a) {
+  return sin_beta / sqrt(squared_sin_a + (V(1.0) - squared_sin_a) * sin_beta * sin_beta);
+}
+
 }  // namespace slipway::sim

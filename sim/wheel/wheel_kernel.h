@@ -17,6 +17,7 @@ struct WheelValues {
   V stiffness, n, cohesion, phi, per_shear_x, per_shear_y;
   V c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
   V unit_weight, bulldozing, side_bulldozing;
+  V side_mobilised;  // the squared sine of Soil::side_mobilised_rad
   V crust_strength, per_crust_depth, hardpan_modulus, hardpan_depth;
   V theta_f, forward, leftward;
 };
@@ -71,6 +72,7 @@ inline constexpr std::array kWheelMembers{&WheelValues<V>::radius,
                                           &WheelValues<V>::unit_weight,
                                           &WheelValues<V>::bulldozing,
                                           &WheelValues<V>::side_bulldozing,
+                                          &WheelValues<V>::side_mobilised,
                                           &WheelValues<V>::crust_strength,
                                           &WheelValues<V>::per_crust_depth,
                                           &WheelValues<V>::hardpan_modulus,

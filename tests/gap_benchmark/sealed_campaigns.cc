@@ -166,17 +166,17 @@ int main(int count, char** words) {
     std::cerr << kUsage;
     return 2;
   }
-  if (!wish->only.empty())
-    std::erase_if(*cases, [&](const CampaignCase& made_of) {
-      const auto has = [&](const std::string& cause) {
-        return std::find(made_of.causes.begin(), made_of.causes.end(), cause) != made_of.causes.end();
-      };
-      return (wish->alone && made_of.causes.size() > 1) ||
-             std::none_of(wish->only.begin(), wish->only.end(),
-                          [&](const std::vector<std::string>& together) {
-                            return std::all_of(together.begin(), together.end(), has);
-                          });
-    });
+  std::erase_if(*cases, [&](const CampaignCase& made_of) {
+    const auto has = [&](const std::string& cause) {
+      return std::find(made_of.causes.begin(), made_of.causes.end(), cause) != made_of.causes.end();
+    };
+    const bool wanted =
+        wish->only.empty() ||
+        std::any_of(wish->only.begin(), wish->only.end(), [&](const std::vector<std::string>& together) {
+          return std::all_of(together.begin(), together.end(), has);
+        });
+    return !wanted || (wish->alone && made_of.causes.size() > 1);
+  });
   if (wish->size)
     for (CampaignCase& made_of : *cases) made_of.size = *wish->size;
   for (CampaignCase& made_of : *cases) {

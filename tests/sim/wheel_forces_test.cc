@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/angle.h"
+#include "sim/soil/terzaghi.h"
 #include "sim/wheel/entry_angle.h"
 #include "sim/wheel/slip_ratio.h"
 #include "sim/wheel/wheel_kernel.h"
@@ -74,11 +76,13 @@ WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, 
   const double n_q =
       std::exp((1.5 * M_PI - phi) * tangent) / (2.0 * std::pow(std::cos(M_PI / 4 + phi / 2), 2));
   const double n_gamma = 2.0 * (n_q + 1.0) * tangent / (1.0 + 0.4 * std::sin(4.0 * phi));
-  const double reach = w.radius_m * std::sin(theta_f);
+  const double reach = w.radius_m * std::sin(theta_f), a = s.side_mobilised_rad;
+  const double mobilised =
+      std::sin(beta) * moving / std::hypot(std::sin(a), std::cos(a) * std::sin(beta) * moving);
   for (int i = 0; i < 20'000; ++i) {
     const double at = -reach + (i + 0.5) * 2.0 * reach / 20'000;
     const double depth = std::sqrt(w.radius_m * w.radius_m - at * at) - (w.radius_m - z0);
-    f.lateral_n -= s.side_bulldozing * std::sin(beta) * moving * 2.0 * reach / 20'000 * depth *
+    f.lateral_n -= s.side_bulldozing * mobilised * 2.0 * reach / 20'000 * depth *
                    (gamma * n_gamma * depth + s.cohesion_pa * (n_q - 1.0) / tangent);
   }
   return f;
@@ -123,6 +127,31 @@ TEST(WheelForces, WithEveryEffectOnTheyAgreeWithTheEquationsWrittenOut) {
       for (const double slip : {-0.4, 0.0, 0.1, 0.8})
         // The hard layer's kink costs digits too.
         expect_agreement(wheel, soil, theta_f, slip, 3e-3);
+}
+
+TEST(WheelForces, SideWallsThatResistFromSmallSlipAnglesOnAgreeWithTheEquationsWrittenOut) {
+  Soil soil = every_effect(sandy_loam());
+  for (const double degrees : {1.0, 5.0, 20.0}) {
+    soil.side_mobilised_rad = rad_from_deg(degrees);
+    for (const double theta_f : {0.2, 0.4, 0.9})
+      for (const double slip : {-0.4, 0.0, 0.1, 0.8}) expect_agreement(kWheel, soil, theta_f, slip, 3e-3);
+  }
+}
+
+// The two equations that are published are the ends of the family.
+TEST(SideWallMobilisation, IsTheSineOfTheSlipAngleOrAllFromTheFirst) {
+  const double whole = 1.0;
+  for (const double degrees : {0.01, 2.0, 15.0, 80.0}) {
+    const double sine = std::sin(rad_from_deg(degrees));
+    EXPECT_EQ(side_wall_mobilisation(sine, whole), sine);
+    EXPECT_EQ(side_wall_mobilisation(-sine, whole), -sine);
+    const double at_once = std::pow(std::sin(rad_from_deg(0.001)), 2);
+    EXPECT_NEAR(side_wall_mobilisation(sine, at_once), whole, 0.01);
+  }
+  const double a = rad_from_deg(5.0), squared = std::sin(a) * std::sin(a);
+  EXPECT_NEAR(side_wall_mobilisation(std::sin(a), squared), 1.0 / std::sqrt(1.0 + std::pow(std::cos(a), 2)),
+              1e-12);
+  EXPECT_EQ(side_wall_mobilisation(0.0, squared), 0.0);
 }
 
 TEST(WheelForces, CleatsWithAMobilisationOfTheirOwnAgreeWithTheEquationsWrittenOut) {

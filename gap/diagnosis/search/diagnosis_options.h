@@ -120,13 +120,13 @@ struct SecondSearchOptions {
 // the library does not have, of a known form or of none. A diagnosis is asked for where something seems to be
 // wrong. They add up to 1 but for pairs beside something else.
 struct PriorOptions {
-  double nothing = 0.25;
-  double one_effect = 0.375;   // shared by the effects of the library
-  double two_effects = 0.125;  // shared by their pairs
-  double something_else = 0.0875;
-  double one_outside = 0.0875;  // shared by the causes from outside
-  double one_and_something_else = 0.0375;
-  double one_and_one_outside = 0.0375;
+  double nothing = 0.21;
+  double one_effect = 0.395;   // shared by the effects of the library
+  double two_effects = 0.131;  // shared by their pairs
+  double something_else = 0.092;
+  double one_outside = 0.092;  // shared by the causes from outside
+  double one_and_something_else = 0.04;
+  double one_and_one_outside = 0.04;
   // Of a cause from outside that no drive tells from an effect of the library: its part of what the others
   // have.
   double twin_share = 0.1;

@@ -149,4 +149,11 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
   return fit;
 }
 
+bool went_far(const FittedExplanation& fit, double max_shift) {
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p)
+    if (std::abs(fit.x[p] - parameters[p].neutral) > max_shift * parameters[p].std) return true;
+  return false;
+}
+
 }  // namespace slipway::gap

@@ -45,4 +45,7 @@ double size_of(const FittedExplanation& fit, std::string_view effect);
 // All observations as measured.
 Eigen::VectorXd measured(const WindowModel& model);
 
+// Whether what a fit re-tunes had to go so far from what was believed, in prior deviations.
+bool went_far(const FittedExplanation& fit, double max_shift);
+
 }  // namespace slipway::gap

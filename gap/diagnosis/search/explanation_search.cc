@@ -7,24 +7,13 @@
 #include <set>
 #include <utility>
 
-#include "gap/diagnosis/model/measured_rates.h"
 #include "gap/diagnosis/model/outside_cause.h"
-#include "gap/diagnosis/search/effect_screening.h"
+#include "gap/diagnosis/search/known_variants.h"
 #include "gap/diagnosis/search/own_scatter.h"
 #include "gap/diagnosis/search/soft_patch_search.h"
-#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
-
-// The fit that no iteration has moved from the nominal parameters.
-FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& model, const NoiseModel& noise,
-                             const DiagnosisOptions& options) {
-  FitOptions untouched = options.fit;
-  untouched.max_iterations = 0;
-  return fit_explanation(null.hypothesis, model, noise, null.hypothesis.neutral(), untouched,
-                         options.search.threads);
-}
 
 // Collects fits of sets of effects, and lets them compete.
 class Searcher {
@@ -38,18 +27,16 @@ class Searcher {
         discrepancy_(discrepancy),
         options_(options),
         progress_(progress),
-        variants_(effect_variants(*campaign.rover, options.search.withheld)) {
-    if (options.search.outside) {
-      const std::vector<EffectVariant> outside = outside_variants(campaign);
-      variants_.insert(variants_.end(), outside.begin(), outside.end());
-    }
-    bound_by_measured_rates(campaign, variants_);
-    for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
+        variants_(campaign, model, noise, discrepancy, options_) {
     progress.report("looking for soft places", 0.18);
-    add_places_beside(null);
-    search_.fits.push_back(std::move(null));
+    variants_.add_places_beside(null);
     progress.report("screening effects", 0.2);
-    screen();
+    variants_.screen(null);
+    search_.fits.push_back(std::move(null));
+    for (const ScreenedEffect& s : variants_.screened())
+      (is_outside(variants_[s.variant].effect) ? search_.screened_outside : search_.screened)
+          .push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.reach,
+                      s.columns, s.taken_by});
   }
 
   void fit_again(std::span<const FittedExplanation> found_before) {
@@ -71,7 +58,7 @@ class Searcher {
 
   // The best variants of the best effects.
   void fit_singles() {
-    for (const ScreenedEffect& s : screened_) {
+    for (const ScreenedEffect& s : variants_.screened()) {
       if (progress_.cancelled()) return;
       const EffectVariant& v = variants_[s.variant];
       const bool known = tried_.contains(v.effect), outside = is_outside(v.effect);
@@ -84,8 +71,8 @@ class Searcher {
                                                      (2.0 * options_.search.max_refitted));
       const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
       FittedExplanation& fit = search_.fits[index];
-      if (const auto other = other_start_.find(s.variant); other != other_start_.end())
-        keep_better(fit, fitted(fit.hypothesis, other->second));
+      if (const std::vector<double>* const other = variants_.start_from_nominal(s.variant))
+        keep_better(fit, fitted(fit.hypothesis, *other));
       if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
                                 options_.search.threads);
@@ -102,8 +89,8 @@ class Searcher {
       const bool may_be_replaced = !campaign_.reference && !is_outside(effect);
       if (!may_be_replaced && !went_far(fit, options_.search.max_linear_shift)) continue;
       fit_from_neutral(fit);
-      const auto at = screened_as(fit.hypothesis.effects().front());
-      if (at != screened_.end()) evidence_of_[at->variant] = fit.log_evidence;
+      if (const ScreenedEffect* const at = variants_.screened_as(fit.hypothesis.effects().front()))
+        evidence_of_[at->variant] = fit.log_evidence;
     }
     sort_singles();
   }
@@ -118,10 +105,11 @@ class Searcher {
       int fitted = 0, outside = 0;
       std::set<std::string> done;
       // Places that nothing but this effect leaves to be seen.
-      const std::size_t known = variants_.size();
-      if (!base_outside && !placed_effect(search_.fits[base])) add_places_beside(search_.fits[base]);
-      for (std::size_t v = known; v < variants_.size(); ++v) seconds.push_back(v);
-      for (const ScreenedEffect& second : screened_beside(search_.fits[base], &seconds)) {
+      const std::size_t known = variants_.count();
+      if (!base_outside && !placed_effect(search_.fits[base]))
+        variants_.add_places_beside(search_.fits[base]);
+      for (std::size_t v = known; v < variants_.count(); ++v) seconds.push_back(v);
+      for (const ScreenedEffect& second : variants_.beside(search_.fits[base], seconds)) {
         if (progress_.cancelled()) return;
         if (second.start.empty() || second.gain < min_gain) break;
         const EffectVariant& v = variants_[second.variant];
@@ -167,9 +155,8 @@ class Searcher {
 
   // All that was fitted and is worth a name against each other, nothing, and something else.
   Result<ExplanationSearch> compete() && {
-    const auto outside = static_cast<double>(std::count_if(
-        variants_of_.begin(), variants_of_.end(), [](const auto& v) { return is_outside(v.first); }));
-    const double effects = static_cast<double>(variants_of_.size()) - outside;
+    const auto outside = static_cast<double>(variants_.outside());
+    const auto effects = static_cast<double>(variants_.effects());
     add_candidates(0, log_prior_of_nothing(options_.priors));
     for (const auto& [effect, fit] : singles_)
       if (worth_naming(search_.fits[fit], options_.search.min_named_size))
@@ -186,54 +173,22 @@ class Searcher {
   // Only what has every effect of the library; nothing, where none was fitted.
   Result<ExplanationSearch> given() && {
     options_.search.something_else = false;
-    if (variants_of_.size() == 1)
+    const std::size_t all = variants_.effects();
+    if (all == 1)
       for (const auto& [effect, fit] : singles_) add_candidates(fit, {});
     for (const auto& [names, fit] : pairs_)
-      if (names.size() == variants_of_.size()) add_candidates(fit, {});
+      if (names.size() == all) add_candidates(fit, {});
     if (search_.candidates.empty()) add_candidates(0, {});
     return std::move(*this).weighed();
   }
 
  private:
-  // Where effects that act at a place could be at work besides.
-  void add_places_beside(const FittedExplanation& fit) {
-    for (const sim::Effect& effect : sim::effect_catalogue()) {
-      const auto& withheld = options_.search.withheld;
-      if (effect.variant_at == nullptr ||
-          std::find(withheld.begin(), withheld.end(), effect.name) != withheld.end())
-        continue;
-      const PatchSearch patches =
-          search_soft_patches(effect, campaign_, model_, noise_, fit, options_.soft_patch);
-      variants_.insert(variants_.end(), patches.variants.begin(), patches.variants.end());
-      variants_of_[std::string(effect.name)] = static_cast<double>(patches.looks);
-    }
-  }
-
-  // At the null, and at the nominal parameters where that had to go far from them.
-  void screen() {
-    screened_ = screened_beside(search_.fits[0]);
-    if (went_far(search_.fits[0], options_.search.max_linear_shift)) {
-      const FittedExplanation nominal = at_nominal(search_.fits[0], model_, noise_, options_);
-      for (const ScreenedEffect& f : screened_beside(nominal)) {
-        other_start_[f.variant] = f.start;
-        for (ScreenedEffect& s : screened_)
-          if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
-      }
-      std::stable_sort(screened_.begin(), screened_.end(),
-                       [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
-    }
-    for (const ScreenedEffect& s : screened_)
-      (is_outside(variants_[s.variant].effect) ? search_.screened_outside : search_.screened)
-          .push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.reach,
-                      s.columns, s.taken_by});
-  }
-
   // Variants that pairs are looked for among: all of the library, and of the causes from outside the best of
   // those that were fitted alone.
   std::vector<std::size_t> possible_seconds() const {
     std::vector<std::size_t> seconds;
     std::set<std::string> outside;
-    for (const ScreenedEffect& s : screened_) {
+    for (const ScreenedEffect& s : variants_.screened()) {
       const std::string& name = variants_[s.variant].effect;
       if (!is_outside(name) || (best_fit_.contains(name) && outside.insert(name).second))
         seconds.push_back(s.variant);
@@ -242,20 +197,6 @@ class Searcher {
     return seconds;
   }
 
-  // Of all variants, or of these alone.
-  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit,
-                                              const std::vector<std::size_t>* among = nullptr) const {
-    const auto screened = [&](std::span<const EffectVariant> variants) {
-      return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants, options_.discrepancy,
-                            options_.search.threads);
-    };
-    if (among == nullptr) return screened(variants_);
-    std::vector<EffectVariant> some;
-    for (const std::size_t v : *among) some.push_back(variants_[v]);
-    std::vector<ScreenedEffect> found = screened(some);
-    for (ScreenedEffect& s : found) s.variant = (*among)[s.variant];
-    return found;
-  }
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
     return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads);
   }
@@ -285,21 +226,15 @@ class Searcher {
     keep_better(fit, fitted(fit.hypothesis, start));
   }
 
-  std::vector<ScreenedEffect>::const_iterator screened_as(const EffectVariant& own) const {
-    return std::find_if(screened_.begin(), screened_.end(), [&](const ScreenedEffect& s) {
-      return variants_[s.variant].effect == own.effect && variants_[s.variant].label == own.label;
-    });
-  }
-
   // By how much less evidence an effect has in its other ways, alone: by fits where both were fitted,
   // otherwise by screening. Places are no ways but looks, of which each is another effect.
   std::vector<double> other_variants(const EffectVariant& own) const {
     if (place_of(own)) return {};
-    const auto at = screened_as(own);
-    if (at == screened_.end()) return {};
+    const ScreenedEffect* const at = variants_.screened_as(own);
+    if (at == nullptr) return {};
     const auto own_evidence = evidence_of_.find(at->variant);
     std::vector<double> less;
-    for (const ScreenedEffect& s : screened_) {
+    for (const ScreenedEffect& s : variants_.screened()) {
       if (s.variant == at->variant || variants_[s.variant].effect != own.effect) continue;
       const auto evidence = evidence_of_.find(s.variant);
       const bool fitted = evidence != evidence_of_.end() && own_evidence != evidence_of_.end();
@@ -315,8 +250,8 @@ class Searcher {
     const FittedExplanation& fit = search_.fits[index];
     for (const EffectVariant& v : fit.hypothesis.effects()) {
       c.effects.push_back(v.effect);
-      prior.alone -= std::log(variants_of_[v.effect]);
-      prior.with_something_else -= std::log(variants_of_[v.effect]);
+      prior.alone -= std::log(variants_.ways_of(v.effect));
+      prior.with_something_else -= std::log(variants_.ways_of(v.effect));
       const OutsideCause* const cause = find_outside(v.effect);
       c.outside = c.outside || cause != nullptr;
       if (cause == nullptr || !cause->twin_of_an_effect) continue;
@@ -350,10 +285,7 @@ class Searcher {
   const DiscrepancyTerm& discrepancy_;
   DiagnosisOptions options_;
   Progress& progress_;
-  std::vector<EffectVariant> variants_;
-  std::map<std::string, double> variants_of_;  // how many each effect has, or places that were looked at
-  std::vector<ScreenedEffect> screened_;
-  std::map<std::size_t, std::vector<double>> other_start_;  // of a variant
+  KnownVariants variants_;
   std::map<std::string, int> tried_;
   std::map<std::size_t, double> evidence_of_;                 // of a variant that was fitted alone
   std::map<std::string, std::size_t> best_fit_;               // of an effect alone
@@ -389,13 +321,6 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
   searcher.fit_singles();
   searcher.fit_pairs(-std::numeric_limits<double>::infinity());
   return std::move(searcher).given();
-}
-
-bool went_far(const FittedExplanation& fit, double max_shift) {
-  const auto parameters = fit.hypothesis.parameters();
-  for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p)
-    if (std::abs(fit.x[p] - parameters[p].neutral) > max_shift * parameters[p].std) return true;
-  return false;
 }
 
 bool worth_naming(const FittedExplanation& fit, double min_size) {

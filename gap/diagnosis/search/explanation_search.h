@@ -52,9 +52,6 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double min_size);
 
-// Whether what a fit re-tunes had to go so far from what was believed, in prior deviations.
-bool went_far(const FittedExplanation& fit, double max_shift);
-
 // The fits of the most probable sets of effects, at most so many.
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);
 
