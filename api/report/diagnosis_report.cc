@@ -148,9 +148,9 @@ class Report {
     page_.paragraph(
         "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
         "had not seen. Last column: how often its evidence would have chosen the set, drives with their "
-        "repeats drawn with replacement. That is no probability: it says how much the choice hangs on which "
-        "drives were made, whereas a probability believes only a part of the evidence of all of them, since "
-        "no simulator is exact.");
+        "repeats drawn with replacement. It is not the probability: it says how much the choice depends on "
+        "which drives were made. The probability is of all the drives, and uses only a part of their "
+        "evidence, since no simulator is exact.");
     add_picture(page_, charts_, "explanations", "Probability of each explanation");
     write_marginals();
     if (!d_.confusable.empty()) {

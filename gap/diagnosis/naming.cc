@@ -73,7 +73,7 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
     return !c.with_unknown && set_of(c.effects) == kept;
   });
   if (rest == search.candidates.end()) return chosen;  // it was not compared without the others
-  if (believable(first) && !believable(*rest)) return chosen;
+  if (!kept.empty() && believable(first) && !believable(*rest)) return chosen;
   return static_cast<std::size_t>(rest - search.candidates.begin());
 }
 

@@ -31,7 +31,7 @@ struct CauseShares {
   Share beside_others;  // ClosedShares::beside_others
 };
 
-// Whether soils and laws are where they may be in an explanation (doubts.h).
+// Whether an explanation leaves the wheel law's closures where they may be: closure_beyond_belief().
 using Believable = std::function<bool(const Candidate& candidate)>;
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
@@ -39,9 +39,9 @@ using Believable = std::function<bool(const Candidate& candidate)>;
 // a law of ground or motors beside another, of which it closes less than min_share_of_law: that much another
 // equation of the other one may close. Beside an effect that closes more, an effect is left out only if it
 // also closes less than min_share_of_rest of what the other leaves, where either of the two has one form:
-// what is left is then not the other form of the one that another could mimic. Nothing is left out without
-// which a law would no longer be believable that is with it. Where nothing unknown is among
-// the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
+// what is left is then not the other form of the one that another could mimic. An effect is also kept
+// where the explanation is believable with it and no longer is without it. Where nothing unknown is among the
+// rest, it is named. Where something unknown is, an effect is named all the same whose marginal
 // probability and share reach min_partial_probability and min_partial_share; of several these must stand
 // together in an explanation that was compared. Where what was chosen is a cause from outside, so that the
 // unknown has a known form, min_share_beside_form does with min_probability_beside_form, or

@@ -32,7 +32,9 @@ struct EffectVariant {
     std::string field;
     double std = 1.0;                    // of the prior, around the neutral value
     double lowest = 0.0, highest = 0.0;  // bounds of the estimate
-    std::optional<double> neutral = {};  // where it is not the field's own: what this rover has already
+    // Where it is not the field's own: what this rover has already, or in this variant is believed first.
+    std::optional<double> neutral = {};
+    bool shape = false;  // it says in which form the effect is at work, not how strongly
   };
   std::string effect = {};  // the row's name; a row's own functions leave it empty
   std::string label = {};   // distinguishes the variants of one effect: "lf", "at 10 mm"; may be empty

@@ -50,6 +50,7 @@ std::vector<EffectVariant> variants(const RoverModel& rover) {
   // wheels. A little: what goes far beyond is a larger wheel (the effect wheel_radius) rather than this.
   EffectVariant::Free share = free_field(kFields, "shear_share", 0.05);
   EffectVariant::Free surcharge = free_field(kFields, "surcharge", 0.2);
+  mobilisation.shape = share.shape = surcharge.shape = true;
   if (own) {
     height.neutral = own->height_m;
     mobilisation.neutral = own->mobilisation;

@@ -83,7 +83,7 @@ struct Soil {
   double bulldozing = 0.0;        // share of Rankine's passive pressure on the front
   double track_bulldozing = 0.0;  // share of that before a wheel that runs in a track
   double side_bulldozing = 0.0;   // share of Terzaghi's bearing capacity on the side walls
-  // Slip angle at which most of that acts: side_wall_mobilisation().
+  // The slip angle at which most of that acts: early_mobilisation() in terzaghi.h.
   double side_mobilised_rad = 0.5 * M_PI;
   double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
   double rate_shear_speed_m_s = 0.04;

@@ -46,16 +46,18 @@ V side_wall_force_n(const V& radius_m, const V& theta_f, const V& sin_f, const V
   return unit_weight_n_m3 * factors.n_gamma * square + cohesion_pa * factors.n_c * area;
 }
 
-// The share, with its sign, of the side wall's resistance that acts at a slip angle beta:
+// The side wall's resistance is F_b sin(beta) at a slip angle beta [ARTEMIS eq. 19]; others let all of the
+// passive pressure act as soon as the wheel slides sideways [Ishigami et al. 2007]. Between the two lies
 //
-//   sin(beta) / sqrt(sin(a)^2 + cos(a)^2 sin(beta)^2)
+//   F_b sin(beta) / sqrt(sin(a)^2 + cos(a)^2 sin(beta)^2)
 //
-// At a = 90 deg it is sin(beta) [ARTEMIS eq. 19]; with a small a nearly all of it acts as soon as the wheel
-// slides sideways, as where R_b does not depend on the slip angle [Ishigami et al. 2007]; at beta = a it is
-// 1 / sqrt(1 + cos(a)^2).
+// with the slip angle a at which most of F_b acts: ARTEMIS's at 90 deg, close to the others' at a few
+// degrees. This is the second factor, by forward and sideways speeds of any unit; 1 where the wheel stands.
 template <class V>
-V side_wall_mobilisation(const V& sin_beta, const V& squared_sin_a) {
-  return sin_beta / sqrt(squared_sin_a + (V(1.0) - squared_sin_a) * sin_beta * sin_beta);
+V early_mobilisation(const V& forward, const V& leftward, const V& squared_sin_a) {
+  using std::sqrt;
+  const V sideways = leftward * leftward, all = forward * forward + sideways, standing = V(1e-12);
+  return sqrt((all + standing) / (squared_sin_a * all + (V(1.0) - squared_sin_a) * sideways + standing));
 }
 
 }  // namespace slipway::sim

@@ -77,7 +77,7 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
   const Grousers& cleats = wheel.grousers;
   const bool sheared_beyond_rim =
       cleats.height_m > 0.0 && (cleats.shear_share > 0.0 || cleats.shear_by_spacing > 0.0);
-  const double side_sine = soil.side_bulldozing > 0.0 ? std::sin(soil.side_mobilised_rad) : 1.0;
+  const double side_sine = soil.side_bulldozing != 0.0 ? std::sin(soil.side_mobilised_rad) : 1.0;
   WheelNumbers numbers{{.radius = wheel.radius_m,
                         .width = wheel.width_m,
                         .rim_friction = wheel.rim_friction,

@@ -69,7 +69,7 @@ struct WheelForces {
 //   j_y = r (v_y / (r |w|)) (theta_f - theta)                            (9) and (10) as one
 //   tau_x, tau_y = +-(c + sigma tan phi) (1 - exp(-|j| / K))             against the slipping         (3), (6)
 //   DP = b r int(tau_x cos - sigma sin) + grousers - frontal bulldozing                               (16 to 18)
-//   L  = b r int(tau_y) + side-wall bulldozing sin(beta)                                              (11, 19)
+//   L  = b r int(tau_y) + side-wall bulldozing sin(beta), or sooner: early_mobilisation()                                              (11, 19)
 //   W  = b r int(sigma cos + tau_x sin) + grousers                                                    (20)
 //   T  = b r^2 int(tau_x) + grousers
 //

@@ -249,7 +249,8 @@ LaneForces<V> total_forces(const WheelValues<V>& in, const ContactAngles<V>& at,
                 passive_pressure_n(in.width, z, in.unit_weight, in.cohesion, at.tan_phi);
     }
     if (parts.side_bulldozing)
-      f.lateral -= in.side_bulldozing * side_wall_mobilisation(in.leftward / speed, in.side_mobilised) *
+      f.lateral -= in.side_bulldozing * (in.leftward / speed) *
+                   early_mobilisation(in.forward, in.leftward, in.side_mobilised) *
                    side_wall_force_n(in.radius, in.theta_f, at.sin_f, at.cos_f, in.unit_weight, in.cohesion,
                                      in.phi, at.tan_phi);
   }

@@ -7,6 +7,7 @@
 
 #include "gap/diagnosis/search/selection.h"
 #include "gap/diagnosis/verdict.h"
+#include "sim/effects/effect_catalogue.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
@@ -86,6 +87,19 @@ TEST(WorthNaming, AsksEachEffectForAGoodPartOfItsUsualSize) {
   EXPECT_NEAR(size_of(fit, "wheel_radius"), 0.29, 1e-9);
   EXPECT_FALSE(worth_naming(fit, 0.3));
   EXPECT_TRUE(worth_naming(fit, 0.28));
+}
+
+TEST(WorthNaming, DoesNotAskForWhatOnlySaysInWhichForm) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  const sim::EffectVariant soon = sim::find_effect("side_bulldozing")->variants(*campaign.rover)[1];
+  EffectVariant walls = soon;
+  walls.effect = "side_bulldozing";
+  FittedExplanation fit{{}, Hypothesis(campaign, {walls})};
+  fit.x = fit.hypothesis.neutral();
+  const std::size_t share = fit.hypothesis.nuisance_count(), angle = share + 1;
+  fit.x[share] += 0.1 * walls.free[0].std;
+  fit.x[angle] -= walls.free[1].std;
+  EXPECT_NEAR(size_of(fit, "side_bulldozing"), 0.1, 1e-9);
 }
 
 TEST(WentFar, IsOfTheParameterThatWentFarthest) {

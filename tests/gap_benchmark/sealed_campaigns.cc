@@ -4,7 +4,7 @@
 // [--measured soil|soil,closures]
 //
 // Only: of the set those campaigns with one of these causes, or with all that are joined by +; alone: without
-// another cause.
+// those that have more than one cause (healthy ones stay).
 // Measured: campaign.json says how well soil (and closures) were measured apart from the drives.
 // With --drives only so many of a campaign's drives are made, of all kinds; --more adds those of a file,
 // whose lines are campaign,tilt_deg,heading_deg,speed_m_s,curvature_1_m,motor_temp_c (of tables alone; the

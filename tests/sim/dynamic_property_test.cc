@@ -45,6 +45,7 @@ Soil any_soil(Dice& dice) {
   if (dice.one_in(3.0)) soil.multipass_stiffening = dice.in(0.0, 2.0);
   if (dice.one_in(3.0)) soil.bulldozing = dice.in(0.0, 1.0);
   if (dice.one_in(3.0)) soil.side_bulldozing = dice.in(0.0, 1.0);
+  if (dice.one_in(3.0)) soil.side_mobilised_rad = rad_from_deg(dice.in(1.0, 90.0));
   if (dice.one_in(5.0)) soil.crust = {dice.in(0.0, 3e4), dice.in(0.005, 0.02)};
   if (dice.one_in(5.0)) soil.rate_shear_exponent = dice.in(-0.3, 0.3);
   return soil;

@@ -77,8 +77,7 @@ WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, 
       std::exp((1.5 * M_PI - phi) * tangent) / (2.0 * std::pow(std::cos(M_PI / 4 + phi / 2), 2));
   const double n_gamma = 2.0 * (n_q + 1.0) * tangent / (1.0 + 0.4 * std::sin(4.0 * phi));
   const double reach = w.radius_m * std::sin(theta_f), a = s.side_mobilised_rad;
-  const double mobilised =
-      std::sin(beta) * moving / std::hypot(std::sin(a), std::cos(a) * std::sin(beta) * moving);
+  const double mobilised = std::sin(beta) * moving / std::hypot(std::sin(a), std::cos(a) * std::sin(beta));
   for (int i = 0; i < 20'000; ++i) {
     const double at = -reach + (i + 0.5) * 2.0 * reach / 20'000;
     const double depth = std::sqrt(w.radius_m * w.radius_m - at * at) - (w.radius_m - z0);
@@ -139,19 +138,36 @@ TEST(WheelForces, SideWallsThatResistFromSmallSlipAnglesOnAgreeWithTheEquationsW
 }
 
 // The two equations that are published are the ends of the family.
-TEST(SideWallMobilisation, IsTheSineOfTheSlipAngleOrAllFromTheFirst) {
-  const double whole = 1.0;
-  for (const double degrees : {0.01, 2.0, 15.0, 80.0}) {
-    const double sine = std::sin(rad_from_deg(degrees));
-    EXPECT_EQ(side_wall_mobilisation(sine, whole), sine);
-    EXPECT_EQ(side_wall_mobilisation(-sine, whole), -sine);
-    const double at_once = std::pow(std::sin(rad_from_deg(0.001)), 2);
-    EXPECT_NEAR(side_wall_mobilisation(sine, at_once), whole, 0.01);
-  }
+TEST(EarlyMobilisation, IsThatOfTheSineOfTheSlipAngleOrAllFromTheFirst) {
+  const double with_sine = 1.0, at_once = std::pow(std::sin(rad_from_deg(0.001)), 2);
+  for (const double degrees : {0.1, 2.0, 15.0, 80.0})
+    for (const double speed : {0.01, 1.0, 30.0}) {
+      const double beta = rad_from_deg(degrees), ahead = speed * std::cos(beta),
+                   left = speed * std::sin(beta);
+      EXPECT_EQ(early_mobilisation(ahead, left, with_sine), 1.0);
+      EXPECT_NEAR(std::sin(beta) * early_mobilisation(ahead, left, at_once), 1.0, 0.01);
+      EXPECT_EQ(early_mobilisation(ahead, left, at_once), early_mobilisation(-ahead, -left, at_once));
+    }
   const double a = rad_from_deg(5.0), squared = std::sin(a) * std::sin(a);
-  EXPECT_NEAR(side_wall_mobilisation(std::sin(a), squared), 1.0 / std::sqrt(1.0 + std::pow(std::cos(a), 2)),
-              1e-12);
-  EXPECT_EQ(side_wall_mobilisation(0.0, squared), 0.0);
+  EXPECT_NEAR(std::sin(a) * early_mobilisation(std::cos(a), std::sin(a), squared),
+              1.0 / std::sqrt(1.0 + std::pow(std::cos(a), 2)), 1e-9);
+  EXPECT_EQ(early_mobilisation(0.0, 0.0, squared), 1.0);
+}
+
+// A wheel that spins on the spot with a little drift meets no wall, however soon that would act.
+TEST(WheelForces, SideWallsPushNothingWhereTheWheelHardlyMoves) {
+  Soil soil = sandy_loam();
+  const auto side_n = [&](double forward, double leftward) {
+    soil.side_bulldozing = 0.0;
+    const double without = wheel_forces(kWheel, soil, 0.4, {forward, leftward}).lateral_n;
+    soil.side_bulldozing = 1.0;
+    return without - wheel_forces(kWheel, soil, 0.4, {forward, leftward}).lateral_n;
+  };
+  soil.side_mobilised_rad = rad_from_deg(1.0);
+  const double in_motion = side_n(1.0, 0.1);
+  EXPECT_GT(in_motion, 1.0);
+  EXPECT_LT(side_n(0.001, 0.001), 0.05 * in_motion);
+  EXPECT_EQ(side_n(0.0, 0.0), 0.0);
 }
 
 TEST(WheelForces, CleatsWithAMobilisationOfTheirOwnAgreeWithTheEquationsWrittenOut) {
@@ -181,6 +197,7 @@ TEST(WheelForces, ManyAtOnceAreTheSameAsOneByOneOnEveryInstructionSet) {
   for (int k = 0; k < 67; ++k) {
     Soil soil = k % 3 == 0 ? sandy_loam() : every_effect(loose_sand());
     soil.pressure.n *= 1.0 + 0.003 * k;
+    soil.side_mobilised_rad = rad_from_deg(1.0 + k);
     soils.push_back(soil);
     angles.push_back(0.2 + 0.01 * k);
     motions.push_back({1.6 - 0.02 * k, 0.05 * (k % 5 - 2)});
@@ -204,7 +221,8 @@ TEST(WheelKernel, AllInstructionSetsAgreeToRounding) {
   const WheelGeometry wheel{0.125, 0.16, {0.01, 24.0}, 0.9};
   for (int k = 0; k < count; ++k) {
     for (const double theta_f : {0.05, 0.4, 1.4}) {
-      const Soil soil = every_effect(sandy_loam());
+      Soil soil = every_effect(sandy_loam());
+      soil.side_mobilised_rad = rad_from_deg(5.0);
       const WheelNumbers numbers = numbers_of(wheel, soil, theta_f, {0.7, 0.1});
       LawParts parts;
       parts.include(numbers);
@@ -213,6 +231,7 @@ TEST(WheelKernel, AllInstructionSetsAgreeToRounding) {
       kernels[k]->one(numbers, parts, other);
       EXPECT_NEAR(first.drawbar_pull_n, other.drawbar_pull_n, 1e-11 * first.vertical_n)
           << kernels[k]->instruction_set;
+      EXPECT_NEAR(first.lateral_n, other.lateral_n, 1e-11 * first.vertical_n) << kernels[k]->instruction_set;
       EXPECT_NEAR(first.vertical_n, other.vertical_n, 1e-11 * first.vertical_n)
           << kernels[k]->instruction_set;
     }

@@ -107,7 +107,7 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
       parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, wide ? kTotalTorqueStd : row.std,
                              std::min(row.lowest, -farthest), std::max(row.highest, farthest),
-                             quantity_of(row), row.kind == NuisanceKind::kSoil ? soil : -1, row.kind,
+                             quantity_of(row), row.kind == NuisanceKind::kSoil ? soil : -1, row.kind, false,
                              stated != campaign.parameter_std.end()});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
@@ -122,6 +122,7 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
           if (field.name == free.field) neutral = neutral_of(v, field);
       parameters_.push_back(
           {v.effect + "." + free.field, v.effect, neutral, free.std, free.std, free.lowest, free.highest});
+      parameters_.back().shape = free.shape;
     }
   if (prior_precision_.size() == 0) return;
   const Eigen::MatrixXd of_nuisances = std::move(prior_precision_);

@@ -37,6 +37,7 @@ struct Parameter {
   std::optional<SoilQuantity> quantity = {};  // of a soil's nuisance that is one of these
   int soil = -1;                              // of a soil's nuisance: index into DriveCampaign::soils
   std::optional<NuisanceKind> kind = {};      // of a nuisance
+  bool shape = false;                         // of an effect: it says in which form, not how strongly
   bool measured = false;                      // its deviation is one of DriveCampaign::parameter_std
 };
 

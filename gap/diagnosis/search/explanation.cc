@@ -119,7 +119,7 @@ double size_of(const FittedExplanation& fit, std::string_view effect) {
   const auto parameters = fit.hypothesis.parameters();
   double size = 0.0;
   for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
-    if (parameters[p].effect == effect)
+    if (parameters[p].effect == effect && !parameters[p].shape)
       size = std::max(size, std::abs(fit.x[p] - parameters[p].neutral) / parameters[p].std);
   return size;
 }

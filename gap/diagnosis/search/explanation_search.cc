@@ -39,6 +39,9 @@ class Searcher {
                       s.columns, s.taken_by});
   }
 
+  Searcher(const Searcher&) = delete;  // variants_ refers to options_
+  Searcher& operator=(const Searcher&) = delete;
+
   void fit_again(std::span<const FittedExplanation> found_before) {
     for (const FittedExplanation& before : found_before) {
       if (progress_.cancelled()) return;

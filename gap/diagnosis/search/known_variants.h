@@ -2,10 +2,8 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gap/diagnosis/search/effect_screening.h"
