@@ -85,6 +85,20 @@ status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" --out "$folder/wrong" >/dev/null 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && grep -q 'headnig.*heading' "$folder/err" && grep -q amps_RR "$folder/err" && [ ! -e "$folder/wrong" ]
 
+# A wrong separator is one fault of a file, whatever it holds.
+sed -e 's/separator = ";"/separator = "tab"/' "$folder/team/yard.toml" >"$folder/team/wrong.toml"
+status=0
+"$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && [ "$(grep -c 'check the mapping.s separator' "$folder/err")" = 3 ] && ! grep -q heading_ "$folder/err" && ! grep -q 'no column' "$folder/err"
+
+# What the campaign's own reader refuses is placed in the log as well.
+cp -r "$folder/team" "$folder/hot"
+hot="$(ls "$folder"/hot/D*-log.csv | head -n 1)"
+awk -F ';' -v OFS=';' 'NR == 7 { $11 = 5000 } 1' "$hot" >"$hot.part" && mv "$hot.part" "$hot"
+status=0
+"$slipway" import "$folder/hot/yard.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q "made of $(basename "$hot"), line 7, column T_K_FL" "$folder/err"
+
 # Stamps since 1970 stay as they are; a clock or a unit that is taken for another is told.
 sed -e 's/unit = "ms"/unit = "ms"\nzero = "recorded"/' "$folder/team/yard.toml" >"$folder/team/epoch.toml"
 "$slipway" import "$folder/team/epoch.toml" --data "$data" --out "$folder/epoch" >/dev/null

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -59,6 +60,13 @@ class TableReader {
     }
     for (const std::string_view name : csv_cells(lines[0].text, separator_))
       table.names.emplace_back(unquoted(name));
+    if (table.names.size() == 1 && !asked.contains(table.names.front())) {
+      fault("/1",
+            fmt::format("{}, line 1: cut at {} the header is one column, {}: check the mapping's separator",
+                        file_, separator_ == '\t' ? "tabs" : in_quotes(std::string(1, separator_)),
+                        in_quotes(table.names.front())));
+      return table;
+    }
     for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
     if (count_ > kMaxFaultsOfFile)
       faults_.push_back(
@@ -245,6 +253,7 @@ class Importer {
     ImportedDrive made;
     made.id = drive.id;
     made.file = drive.id + ".csv";
+    made.log = drive.file;
     made.values.resize(mapping_.columns.size());
     std::vector<std::vector<double>> recorded(places.size());
     for (std::size_t c = 0; c < places.size(); ++c)
@@ -252,6 +261,7 @@ class Importer {
     for (std::size_t i = 0; i < time_s.size(); ++i) {
       if ((drive.from_s && time_s[i] < *drive.from_s) || (drive.to_s && time_s[i] > *drive.to_s)) continue;
       made.time_s.push_back(time_s[i]);
+      made.lines.push_back(table.lines[i]);
       for (std::size_t c = 0; c < places.size(); ++c) {
         const ImportedColumn& column = made_.columns[c];
         made.values[c].push_back(column.factor * delayed(time_s, recorded[c], i, column.delay_s) +
@@ -382,6 +392,25 @@ Result<ImportedCampaign> import_drives(const fs::path& mapping) {
   if (!read) return fail(read.error());
   return Importer(std::move(*read), mapping.parent_path().empty() ? fs::path(".") : mapping.parent_path())
       .run();
+}
+
+void place_in_logs(const ImportedCampaign& campaign, Error& error) {
+  constexpr std::size_t kHeaderLines = 1;
+  for (Fault& fault : error.faults)
+    for (const ImportedDrive& drive : campaign.drives) {
+      const std::string start = drive.file + "#/";
+      if (!fault.pointer.starts_with(start)) continue;
+      const char* const from = fault.pointer.data() + start.size();
+      const char* const end = fault.pointer.data() + fault.pointer.size();
+      std::size_t line = 0;
+      const auto [rest, failed] = std::from_chars(from, end, line);
+      if (failed != std::errc{} || line <= kHeaderLines || line - kHeaderLines > drive.lines.size()) continue;
+      std::string place = fmt::format("{}, line {}", drive.log, drive.lines[line - kHeaderLines - 1]);
+      const std::string_view name = rest == end ? "" : std::string_view(rest + 1, end);
+      for (const ImportedColumn& column : campaign.columns)
+        if (column.to == name) place += fmt::format(", column {}", column.from);
+      fault.message += fmt::format(" (made of {})", place);
+    }
 }
 
 }  // namespace slipway::api

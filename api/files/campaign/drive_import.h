@@ -20,7 +20,9 @@ struct ImportedColumn {
 };
 
 struct ImportedDrive {
-  std::string id, file;
+  std::string id, file;            // in the campaign that is made
+  std::string log;                 // the file that it was read from
+  std::vector<std::size_t> lines;  // of the log, by row
   std::size_t rows = 0;
   double duration_s = 0.0, interval_s = 0.0;  // the median from row to row
   double commanded_m = 0.0, travelled_m = 0.0;
@@ -43,5 +45,9 @@ struct ImportedCampaign {
 // written. All faults of all files together: columns that are not there, cells that are no number, clocks
 // that do not go on. Errors: unreadable_data, and those of read_import_mapping.
 Result<ImportedCampaign> import_drives(const std::filesystem::path& mapping);
+
+// Faults that the campaign's reader found in a drive that was made also say where that stands in the log: its
+// file, line and column.
+void place_in_logs(const ImportedCampaign& campaign, Error& error);
 
 }  // namespace slipway::api

@@ -112,8 +112,11 @@ int import(const ImportCommand& options) {
   if (const auto written = write_campaign(*campaign, beside, made.path()); !written)
     return refuse(written.error());
   // The campaign's own reader has the last word.
-  const auto read = api::load_drive_campaign(made.path(), *catalogue);
-  if (!read) return refuse_unreadable(read.error());
+  auto read = api::load_drive_campaign(made.path(), *catalogue);
+  if (!read) {
+    api::place_in_logs(*campaign, read.error());
+    return refuse_unreadable(read.error());
+  }
   if (!options.out.empty()) {
     fs::remove(options.out, error);
     fs::rename(made.path(), options.out, error);
