@@ -164,10 +164,17 @@ class Diagnoser {
     const CauseShares cause_shares{
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
-    const auto believable = [&](const Candidate& c) {
-      return !closure_beyond_belief(search_.fits[c.fit], options_.verdict);
-    };
-    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, believable, options_.verdict);
+    // With a reference closures and soils are believed as they were learnt.
+    const Beliefs beliefs{
+        .closure_shift =
+            [&](const Candidate& c) {
+              return campaign_.reference ? 0.0 : std::abs(furthest_closure(search_.fits[c.fit]).deviations);
+            },
+        .are_bent_beyond =
+            [&](const Candidate& c) {
+              return beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict).has_value();
+            }};
+    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);

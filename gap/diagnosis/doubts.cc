@@ -71,19 +71,21 @@ std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBel
 
 // Whether an effect that acts at a place is named: a patch is told from other causes by its place, and its
 // rim bends the soil around it.
-bool names_a_place(const Diagnosis& d) {
-  return std::any_of(d.effects.begin(), d.effects.end(), [](const FoundEffect& effect) {
-    const sim::Effect* const of = sim::find_effect(effect.name);
+bool names_a_place(std::span<const std::string> effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const std::string& effect) {
+    const sim::Effect* const of = sim::find_effect(effect);
     return of != nullptr && of->variant_at != nullptr;
   });
 }
 
 // The soil that lies furthest from what was believed of it, where that is too far to name effects beside it.
 // With a reference, which ties the parameters to each other, nothing.
-std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported, const Diagnosis& d,
+std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported,
+                                              std::span<const std::string> effects,
                                               const VerdictOptions& options) {
   const Hypothesis& hypothesis = reported.hypothesis;
-  if (d.effects.empty() || names_a_place(d) || hypothesis.prior_precision().size() > 0) return std::nullopt;
+  if (effects.empty() || names_a_place(effects) || hypothesis.prior_precision().size() > 0)
+    return std::nullopt;
   struct Shift {
     double square = 0.0, most = 0.0;
     std::string of;  // the parameter that is furthest off
@@ -165,11 +167,6 @@ bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
                        [&](const EffectMarginal& m) { return stands_beside_unknown(m, options); });
 }
 
-bool as_good_as_certain(const EffectMarginal& m, const VerdictOptions& options) {
-  return m.probability >= options.min_probability_beside_form &&
-         m.closed_share >= options.min_share_beside_form;
-}
-
 bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
   return of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
 }
@@ -194,8 +191,7 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
   if (!why) why = parameter_at_its_end(answer.fit);
   if (why) return Doubt{*why, true, false};
   const bool certain = all_certain(d, options), probable = all_probable(d, options);
-  why = closure_beyond_belief(answer.fit, options);
-  if (!why) why = soil_beyond_belief(answer.fit, d, options);
+  why = beyond_belief(answer.fit, named(d), options);
   if (why) return Doubt{*why, false, certain};
   why = little_closed(answer, d, options);
   if (why) return Doubt{*why, false, false};
@@ -207,17 +203,24 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
 
 }  // namespace
 
-std::optional<std::string> closure_beyond_belief(const FittedExplanation& fit,
-                                                 const VerdictOptions& options) {
+ClosureShift furthest_closure(const FittedExplanation& fit) {
+  ClosureShift furthest;
   for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
     const Parameter& parameter = fit.hypothesis.parameters()[p];
+    if (parameter.kind != NuisanceKind::kClosure || !has_far_ends(parameter)) continue;
     const double deviations = deviations_of(fit, p);
-    if (parameter.kind == NuisanceKind::kClosure && has_far_ends(parameter) &&
-        std::abs(deviations) > options.max_closure_shift)
-      return fmt::format("{} would be {:+.1f} deviations from what was believed of it", parameter.name,
-                         deviations);
+    if (std::abs(deviations) > std::abs(furthest.deviations)) furthest = {parameter.name, deviations};
   }
-  return std::nullopt;
+  return furthest;
+}
+
+std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span<const std::string> effects,
+                                         const VerdictOptions& options) {
+  const ClosureShift furthest = furthest_closure(fit);
+  if (std::abs(furthest.deviations) > options.max_closure_shift)
+    return fmt::format("{} would be {:+.1f} deviations from what was believed of it", furthest.closure,
+                       furthest.deviations);
+  return soil_beyond_belief(fit, effects, options);
 }
 
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "gap/diagnosis/diagnosis.h"
@@ -26,9 +27,19 @@ struct ReportedAnswer {
   std::optional<ScaleOffBelief> scatter;  // furthest above belief; none where a reference told of it
 };
 
-// A parameter of the wheel law that an explanation bends beyond VerdictOptions::max_closure_shift, in words:
-// only another wheel law would ask for that. Nothing where all are within.
-std::optional<std::string> closure_beyond_belief(const FittedExplanation& fit, const VerdictOptions& options);
+// The closure of the wheel law that an explanation bends furthest from what was believed of it, in usual
+// deviations, with their sign. Closures whose ends are near, as with a reference, do not count.
+struct ClosureShift {
+  std::string closure;
+  double deviations = 0.0;
+};
+ClosureShift furthest_closure(const FittedExplanation& fit);
+
+// What an explanation bends beyond belief, in words: a closure beyond VerdictOptions::max_closure_shift,
+// which only another wheel law would ask for, or a soil beside effects beyond max_soil_shift. Nothing where
+// all are within.
+std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span<const std::string> effects,
+                                         const VerdictOptions& options);
 
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,

@@ -17,8 +17,7 @@ Names set_of(const std::vector<std::string>& names) {
 
 // The same beside a cause from outside of a known form.
 bool stands_beside_form(const EffectMarginal& marginal, const VerdictOptions& options) {
-  return (marginal.probability >= options.min_probability_beside_form &&
-          marginal.closed_share >= options.min_share_beside_form) ||
+  return as_good_as_certain(marginal, options) ||
          (marginal.probability >= options.min_probability_closing_most &&
           marginal.closed_share >= options.min_partial_share);
 }
@@ -29,6 +28,13 @@ std::optional<std::size_t> candidate_with(const ExplanationSearch& search, const
                                           const May& may) {
   for (std::size_t c = 0; c < search.candidates.size(); ++c)
     if (may(search.candidates[c]) && set_of(library_effects_of(search.candidates[c])) == effects) return c;
+  return std::nullopt;
+}
+
+// The candidate with exactly these causes and nothing of no known form; none where it was not compared.
+std::optional<std::size_t> known_with(const ExplanationSearch& search, const Names& causes) {
+  for (std::size_t c = 0; c < search.candidates.size(); ++c)
+    if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == causes) return c;
   return std::nullopt;
 }
 
@@ -51,7 +57,7 @@ bool is_law(const std::string& cause) {
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
 // alone stays: nothing else says what is there.
 std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
-                      const Believable& believable, const VerdictOptions& options) {
+                      const Beliefs& beliefs, const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
   double most_of_laws = 0.0;
@@ -69,12 +75,26 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
           shares.beside_others(cause) >= options.min_share_of_rest)
         kept.insert(cause);
   }
-  const auto rest = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
-    return !c.with_unknown && set_of(c.effects) == kept;
-  });
-  if (rest == search.candidates.end()) return chosen;  // it was not compared without the others
-  if (!kept.empty() && believable(first) && !believable(*rest)) return chosen;
-  return static_cast<std::size_t>(rest - search.candidates.begin());
+  const auto rest = known_with(search, kept);
+  if (!rest) return chosen;
+  const bool stood_in_for = !kept.empty() && beliefs.closure_shift(first) <= options.max_stand_in_shift &&
+                            beliefs.closure_shift(search.candidates[*rest]) > options.max_stand_in_shift;
+  return stood_in_for ? chosen : *rest;
+}
+
+// Of several known causes beside which soils or closures are bent beyond belief those that are as good as
+// certain.
+std::size_t of_belief(const ExplanationSearch& search, std::size_t chosen,
+                      std::span<const EffectMarginal> marginals, const Beliefs& beliefs,
+                      const VerdictOptions& options) {
+  const Candidate& first = search.candidates[chosen];
+  if (first.with_unknown || first.effects.size() < 2 || !beliefs.are_bent_beyond(first)) return chosen;
+  Names kept;
+  for (const EffectMarginal& m : marginals)
+    if (as_good_as_certain(m, options) &&
+        std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
+      kept.insert(m.name);
+  return kept.empty() ? chosen : known_with(search, kept).value_or(chosen);
 }
 
 Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
@@ -84,6 +104,11 @@ Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
 
 }  // namespace
 
+bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options) {
+  return marginal.probability >= options.min_probability_beside_form &&
+         marginal.closed_share >= options.min_share_beside_form;
+}
+
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options) {
   return marginal.probability >= options.min_partial_probability &&
          marginal.closed_share >= options.min_partial_share;
@@ -91,9 +116,10 @@ bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions&
 
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
-                    const Believable& believable, const VerdictOptions& options) {
+                    const Beliefs& beliefs, const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
-  chosen = of_weight(search, chosen, shares, believable, options);
+  chosen = of_weight(search, chosen, shares, beliefs, options);
+  chosen = of_belief(search, chosen, marginals, beliefs, options);
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;

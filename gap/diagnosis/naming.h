@@ -31,8 +31,11 @@ struct CauseShares {
   Share beside_others;  // ClosedShares::beside_others
 };
 
-// Whether an explanation leaves the wheel law's closures where they may be: closure_beyond_belief().
-using Believable = std::function<bool(const Candidate& candidate)>;
+// How far an explanation bends what was believed.
+struct Beliefs {
+  std::function<double(const Candidate& candidate)> closure_shift;  // furthest_closure(), without its sign
+  std::function<bool(const Candidate& candidate)> are_bent_beyond;  // beyond_belief()
+};
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
 // less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; so is
@@ -40,15 +43,20 @@ using Believable = std::function<bool(const Candidate& candidate)>;
 // equation of the other one may close. Beside an effect that closes more, an effect is left out only if it
 // also closes less than min_share_of_rest of what the other leaves, where either of the two has one form:
 // what is left is then not the other form of the one that another could mimic. An effect is also kept
-// where the explanation is believable with it and no longer is without it. Where nothing unknown is among the
-// rest, it is named. Where something unknown is, an effect is named all the same whose marginal
-// probability and share reach min_partial_probability and min_partial_share; of several these must stand
-// together in an explanation that was compared. Where what was chosen is a cause from outside, so that the
-// unknown has a known form, min_share_beside_form does with min_probability_beside_form, or
-// min_probability_closing_most of an effect that closes min_partial_share.
+// where without it a closure would go beyond max_stand_in_shift that is within with it: the closure stands in
+// for the effect. Of an explanation that is bent beyond belief only those effects are kept that are as good
+// as certain, where they were compared and there are any. Where nothing unknown is among the rest, it is
+// named. Where something unknown is, an effect is named all the same whose marginal probability and share
+// reach min_partial_probability and min_partial_share; of several these must stand together in an explanation
+// that was compared. Where what was chosen is a cause from outside, so that the unknown has a known form,
+// min_share_beside_form does with min_probability_beside_form, or min_probability_closing_most of an effect
+// that closes min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
-                    const Believable& believable, const VerdictOptions& options);
+                    const Beliefs& beliefs, const VerdictOptions& options);
+
+// min_probability_beside_form and min_share_beside_form are reached.
+bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options);
 
 // Whether an effect may be named beside something unknown.
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);

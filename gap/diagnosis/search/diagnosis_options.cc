@@ -196,10 +196,10 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               max_soil_shift, max_closure_shift, rival_share, min_doubt, determined_share, max_angle_deg,
-               min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
-               strong_evidence, min_share_of_law, min_share_of_rest, min_partial_probability,
-               min_partial_share, min_probability_beside_form, min_share_beside_form,
+               max_soil_shift, max_closure_shift, max_stand_in_shift, rival_share, min_doubt,
+               determined_share, max_angle_deg, min_signature, max_unexplained_shapes, name_by_marginals,
+               min_closed_share, min_named_share, strong_evidence, min_share_of_law, min_share_of_rest,
+               min_partial_probability, min_partial_share, min_probability_beside_form, min_share_beside_form,
                min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
@@ -214,6 +214,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_scatter);
   SLIPWAY_FIELD(max_soil_shift);
   SLIPWAY_FIELD(max_closure_shift);
+  SLIPWAY_FIELD(max_stand_in_shift);
   SLIPWAY_FIELD(rival_share);
   SLIPWAY_FIELD(min_doubt);
   SLIPWAY_FIELD(determined_share);

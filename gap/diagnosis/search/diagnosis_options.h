@@ -185,6 +185,10 @@ struct VerdictOptions {
   // The same of a closure, whatever the answer: of c1 0.3, so that loose sand's 0.18 may be compact sand's
   // 0.43 [Wong and Reece 1967]. In 24 healthy campaigns none came to more than 1.1.
   double max_closure_shift = 6.0;
+  // The same of a closure beside which an effect is left out that closes little: beyond it, the closure
+  // stands in for the effect. Where the effect was not there, closures of 11 sealed campaigns came to 2.7 at
+  // most.
+  double max_stand_in_shift = 4.0;
   double rival_share = 0.75;       // of the answer's probability: a rival with as much is alike
   double min_doubt = 0.9;          // probability of something unknown where an answer left a gap
   double determined_share = 0.7;   // of a prior deviation, below which drives determine a parameter
