@@ -241,8 +241,8 @@ void write_model(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis&
   const auto model = corrected_model(campaign, d);
   if (!model) return;
   w.key("model").begin_object().text("campaign", campaign.name);
-  w.key("nominal").begin_object().text("rover", campaign.rover->name).key("soils").begin_array();
-  for (const gap::NominalSoil& soil : campaign.soils) w.text(soil.name);
+  w.key("nominal").begin_object().text("rover", d.nominal_rover->name).key("soils").begin_array();
+  for (const gap::NominalSoil& soil : d.nominal_soils) w.text(soil.name);
   w.end_array().end_object().key("rover").raw(rover_document(*model));
   w.key("soils").raw(soils_document(*model));
   write_effects(w, model->effects);

@@ -71,7 +71,7 @@ std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign
   model.noise = diagnosis.noise;
   model.left_open = diagnosis.left_open;
   sim::RoverModel& rover = model.rover;
-  rover = *campaign.rover;
+  rover = *diagnosis.nominal_rover;
   for (const gap::Nuisance& row : gap::nuisance_catalogue())
     if (const auto* const p = retuned(diagnosis, row.name, ""); p != nullptr && row.on_rover != nullptr)
       row.on_rover(p->value.value, rover);
@@ -80,7 +80,8 @@ std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign
     if (const sim::Effect* const effect = sim::find_effect(setting.name);
         effect != nullptr && effect->region == nullptr)
       rover.effects.push_back(setting);
-  for (const gap::NominalSoil& nominal : campaign.soils) model.soils.push_back(soil_of(nominal, diagnosis));
+  for (const gap::NominalSoil& nominal : diagnosis.nominal_soils)
+    model.soils.push_back(soil_of(nominal, diagnosis));
 
   std::vector<std::string> names;
   for (const sim::EffectSetting& setting : model.effects) names.push_back(setting.name);

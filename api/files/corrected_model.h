@@ -12,9 +12,9 @@
 
 namespace slipway::api {
 
-// What a diagnosis offers to plan with: the campaign's rover with re-tuned motors, which carries the effects
-// that were found, and its re-tuned soils with what is believed of them now. Names end in the campaign's and
-// a version that is another for other numbers: "mer-class-p05-3f9a2c".
+// What a diagnosis offers to plan with: the nominal rover (Diagnosis::nominal_rover) with re-tuned motors,
+// which carries the effects that were found, and the re-tuned nominal soils with what is believed of them
+// now. Names end in the campaign's and a version that is another for other numbers: "mer-class-p05-3f9a2c".
 struct CorrectedModel {
   sim::RoverModel rover;
   std::vector<sim::SoilDistribution> soils;  // in the campaign's order

@@ -234,9 +234,9 @@ class Report {
         "deviations "
         "from what was believed of it is not to be trusted without another look at it.");
     page_.table(
-        {"parameter", "value, 90 % interval", "believed before, std", "deviations off", "the drives tell"});
+        {"parameter", "value, 90 % interval", "believed before", "deviations off", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)
-      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std),
+      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g} ± {:.3g}", p.believed, p.prior_std),
                  fmt::format("{:+.1f}", (p.value.value - p.believed) / p.prior_std),
                  p.determined ? "yes" : "no"});
     add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
@@ -270,7 +270,7 @@ class Report {
                  fmt::format("{:.4f}", s.shear_modulus_x_m)});
     };
     for (std::size_t k = 0; k < model->soils.size(); ++k) {
-      describe(campaign_.soils[k].name, campaign_.soils[k].soil);
+      describe(d_.nominal_soils[k].name, d_.nominal_soils[k].soil);
       describe(Spans{{model->soils[k].name, Style::kCode}}, model->soils[k].mean);
     }
   }

@@ -80,7 +80,8 @@ void write_ladder_table(ReportPage& page, const Diagnosis& d) {
   page.paragraph(
       "How far prediction and measurement are apart (root mean square) on drives that the fit had not seen, "
       "with 90 % intervals. Read each row from left to right, as a ladder:");
-  page.item("nominal: the model as it was given");
+  page.item(d.reference ? "nominal: the rover and soils as the reference has them, before it was learnt from"
+                        : "nominal: the model as it was given");
   page.item(d.reference
                 ? "re-tuned: soils and motors as the drives want them, within what the reference left "
                   "open, and with the difference that the reference taught"

@@ -81,6 +81,8 @@ class Diagnoser {
     d_.campaign_fingerprint = campaign_.fingerprint;
     d_.seed = options_.seed;
     d_.drives = campaign_.drives.size();
+    d_.nominal_rover = campaign_.rover;
+    d_.nominal_soils = campaign_.soils;
     d_.notes = campaign_.notes;
     for (const sim::Effect& effect : sim::effect_catalogue())
       if (!is_withheld(effect.name)) d_.library.emplace_back(effect.name);
@@ -201,7 +203,8 @@ class Diagnoser {
     for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
       const Interval value = parameter_interval(fit, p);
-      const double error = (value.high - value.value) / kReach90;
+      const auto i = static_cast<Eigen::Index>(p);
+      const double error = parameter.std * std::sqrt(fit.covariance(i, i));
       d_.retuned.push_back({parameter.name, value, parameter.std,
                             error < options_.verdict.determined_share * parameter.std, parameter.neutral});
     }
@@ -285,7 +288,8 @@ class Diagnoser {
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     withdraw_what_tells_no_better(closure->log_density_gain, d_);
-    ReportedAnswer answer{reported_fit(), named_share_, best().log_evidence, {}};
+    ReportedAnswer answer{
+        reported_fit(), named_share_, evidence_over_nothing(best(), search_.candidates), {}};
     if (!campaign_.reference) answer.scatter = prepared_.noise->furthest_above_belief();
     doubt_answer(answer, options_.verdict, d_);
     if (explains()) {
@@ -325,7 +329,13 @@ class Diagnoser {
     if (d_.verdict != Verdict::kUnknown) return false;
     bool better = false;
     for (const ChannelClosure& c : d_.gap) {
-      if (c.retuned.value > options_.held_out.no_worse * c.nominal.value) return false;
+      if (c.retuned.value > options_.held_out.no_worse * c.nominal.value) {
+        d_.notes.push_back(
+            fmt::format("no corrected model is offered: on drives held out of the fit the re-tuned one would "
+                        "predict {} {:.0f} % worse than the nominal one",
+                        name_of(c.channel), 100.0 * (c.retuned.value / c.nominal.value - 1.0)));
+        return false;
+      }
       better = better || c.retuned.value < options_.held_out.much_better * c.nominal.value;
     }
     if (better)

@@ -75,6 +75,11 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
           shares.beside_others(cause) >= options.min_share_of_rest)
         kept.insert(cause);
   }
+  double closed = 0.0;
+  for (const std::string& cause : kept) closed += shares.of_gap(cause);
+  if (closed < options.min_named_share &&
+      evidence_over_nothing(first, search.candidates) < options.strong_evidence)
+    kept.clear();
   const auto rest = known_with(search, kept);
   if (!rest) return chosen;
   const bool stood_in_for = !kept.empty() && beliefs.closure_shift(first) <= options.max_stand_in_shift &&

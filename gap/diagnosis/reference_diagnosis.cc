@@ -26,6 +26,14 @@ std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaig
   return faults;
 }
 
+bool same_numbers(const sim::Soil& a, const sim::Soil& b) {
+  return a.pressure.k_c == b.pressure.k_c && a.pressure.k_phi == b.pressure.k_phi &&
+         a.pressure.n == b.pressure.n && a.cohesion_pa == b.cohesion_pa &&
+         a.friction_angle_rad == b.friction_angle_rad && a.shear_modulus_x_m == b.shear_modulus_x_m &&
+         a.shear_modulus_y_m == b.shear_modulus_y_m && a.density_kg_m3 == b.density_kg_m3 && a.n1 == b.n1 &&
+         a.c1 == b.c1 && a.c2 == b.c2;
+}
+
 // As the reference has rover and soils, which what was learnt is relative to.
 void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
   auto rover = std::make_shared<sim::RoverModel>(*reference.rover);
@@ -35,7 +43,14 @@ void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
   campaign.parameter_std = reference.parameter_std;
   for (NominalSoil& soil : campaign.soils)
     for (const NominalSoil& known : reference.soils)
-      if (known.name == soil.name) soil.soil = known.soil;
+      if (known.name == soil.name) {
+        if (!same_numbers(known.soil, soil.soil))
+          campaign.notes.push_back(fmt::format(
+              "soil {} has other numbers in the reference; those of the reference are taken, since "
+              "what was learnt is relative to them",
+              soil.name));
+        soil.soil = known.soil;
+      }
 }
 
 }  // namespace

@@ -197,8 +197,11 @@ void judge_unknown(const ExplanationSearch& search, std::size_t best, double unk
 
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
   const auto i = static_cast<Eigen::Index>(parameter);
-  return normal_interval(fit.x[parameter],
-                         fit.hypothesis.parameters()[parameter].std * std::sqrt(fit.covariance(i, i)));
+  const Parameter& p = fit.hypothesis.parameters()[parameter];
+  Interval interval = normal_interval(fit.x[parameter], p.std * std::sqrt(fit.covariance(i, i)));
+  interval.low = std::clamp(interval.low, std::min(p.lowest, interval.value), interval.value);
+  interval.high = std::clamp(interval.high, interval.value, std::max(p.highest, interval.value));
+  return interval;
 }
 
 double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options) {
@@ -244,15 +247,13 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   std::map<SetKey, double> sets;
   std::map<std::string, double> single;
   double unknown = 0.0;
-  const auto nothing = std::find_if(search.candidates.begin(), search.candidates.end(),
-                                    [](const Candidate& c) { return c.effects.empty() && !c.with_unknown; });
   for (const Candidate& c : search.candidates) {
     sets[key_of(c)] += c.probability;
     for (const std::string& name : c.effects) single[name] += c.probability;
     if (c.unknown()) unknown += c.probability;
     ComparedSet set = compared(c);
     set.probability = c.probability;
-    if (nothing != search.candidates.end()) set.log_evidence = c.log_evidence - nothing->log_evidence;
+    set.log_evidence = evidence_over_nothing(c, search.candidates);
     set.log_prior = c.log_prior;
     set.complexity = static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size());
     d.candidates.push_back(std::move(set));

@@ -13,7 +13,7 @@
 
 namespace slipway::gap {
 
-// 90 % interval of a fit's parameter.
+// 90 % interval of a fit's parameter, cut at the ends of what it may be.
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter);
 
 // The share of the screened variants that drives would not surely have shown at VerdictOptions::small_effect

@@ -199,6 +199,21 @@ TEST_F(ADiagnosis, OffersTheModelThatWasFitted) {
   EXPECT_EQ(soil.exit_angle_ratio, fitted_soil.exit_angle_ratio);
 }
 
+// With a reference soils of the same name are the reference's, on which the fit was made: the campaign's own
+// numbers of them, re-tuned, would be a soil that nobody fitted.
+TEST_F(ADiagnosis, OffersTheSoilsThatItsParametersAreRelativeTo) {
+  gap::Diagnosis since = diagnosis();
+  since.nominal_soils.front().soil.cohesion_pa *= 3.0;
+  auto rover = std::make_shared<sim::RoverModel>(*since.nominal_rover);
+  rover->drive.torque_constant_nm_per_a *= 2.0;
+  since.nominal_rover = rover;
+  const auto own = corrected_model(campaign(), diagnosis()), model = corrected_model(campaign(), since);
+  ASSERT_TRUE(own && model);
+  EXPECT_DOUBLE_EQ(model->soils.front().mean.cohesion_pa, 3.0 * own->soils.front().mean.cohesion_pa);
+  EXPECT_DOUBLE_EQ(model->rover.drive.torque_constant_nm_per_a,
+                   2.0 * own->rover.drive.torque_constant_nm_per_a);
+}
+
 TEST_F(ADiagnosis, OffersFilesThatAreReadAsTheyWereWritten) {
   const auto model = corrected_model(campaign(), diagnosis());
   ASSERT_TRUE(model);

@@ -26,6 +26,8 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   gap::Diagnosis d;
   d.campaign = campaign.name;
   d.campaign_fingerprint = campaign.fingerprint;
+  d.nominal_rover = campaign.rover;
+  d.nominal_soils = campaign.soils;
   d.options = gap::listed_options({});
   d.library = {"motor_temperature", "soft_patch"};
   d.verdict = gap::Verdict::kEffects;

@@ -94,6 +94,19 @@ TEST(Naming, LeavesOutNothingThatAClosureWouldStandInFor) {
   EXPECT_EQ(names(1.0, 4.8, 0.03), 0U) << "together they close next to nothing";
 }
 
+// 5502 s26: a healthy campaign, of which a crust that closed 8 % had 17 of log evidence.
+TEST(Naming, LeavesOutWhatClosesLittleAndHasLittleEvidence) {
+  const auto names = [](double log_evidence, double closed) {
+    std::vector<Candidate> candidates{candidate({"duricrust"}, 0.84), candidate({}, 0.16)};
+    candidates[0].log_evidence = -300.0 + log_evidence;  // up to a constant
+    candidates[1].log_evidence = -300.0;
+    return named(search_of(candidates), {{"duricrust", 0.84, closed}}).effects.size();
+  };
+  EXPECT_EQ(names(17.0, 0.08), 0U);
+  EXPECT_EQ(names(17.0, 0.11), 1U);
+  EXPECT_EQ(names(60.0, 0.08), 1U) << "something is missing, if not this: the answer is doubted as a whole";
+}
+
 // 5501 s01: a multipass in every explanation stood beside a crust that was not there, and soils that both of
 // them bent beyond belief took the names of both back.
 TEST(Naming, OfWhatIsBentBeyondBeliefKeepsWhatIsAsGoodAsCertain) {

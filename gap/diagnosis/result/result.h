@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -263,6 +264,10 @@ struct Diagnosis {
   std::vector<NextDrive> next_drives;
   std::vector<LeastDetectable> least_detectable;
   std::vector<RetunedParameter> retuned;
+  // The rover and the soils that `retuned` is relative to: the campaign's own, but with a reference those of
+  // the same names that the reference has.
+  std::shared_ptr<const sim::RoverModel> nominal_rover;
+  std::vector<NominalSoil> nominal_soils;
   std::vector<std::string> notes;
   // The corrected model: the re-tuned nominal one with the effects found.
   std::optional<ModelState> model;

@@ -26,14 +26,17 @@ bool says_nothing(const Candidate& c) {
 // By how much the best set with something in it has more evidence than nothing: 0 at least, and where nothing
 // was not compared.
 double evidence_of_missing(std::span<const Candidate> candidates) {
-  const auto nothing = std::find_if(candidates.begin(), candidates.end(), says_nothing);
-  if (nothing == candidates.end()) return 0.0;
-  double most = nothing->log_evidence;
-  for (const Candidate& c : candidates) most = std::max(most, c.log_evidence);
-  return most - nothing->log_evidence;
+  double most = 0.0;
+  for (const Candidate& c : candidates) most = std::max(most, evidence_over_nothing(c, candidates));
+  return most;
 }
 
 }  // namespace
+
+double evidence_over_nothing(const Candidate& candidate, std::span<const Candidate> candidates) {
+  const auto nothing = std::find_if(candidates.begin(), candidates.end(), says_nothing);
+  return nothing == candidates.end() ? 0.0 : candidate.log_evidence - nothing->log_evidence;
+}
 
 std::vector<std::string> library_effects_of(const Candidate& candidate) {
   std::vector<std::string> names;

@@ -17,7 +17,7 @@ struct Candidate {
   bool with_unknown = false;  // something else besides
   bool outside = false;       // a cause from outside is among the effects
   std::size_t fit = 0;
-  double log_evidence = 0.0;  // the discrepancy term's part among it
+  double log_evidence = 0.0;  // up to a constant of all candidates; the discrepancy term's part among it
   NoiseScales scatter;        // of the drives beside its fit
   double log_prior = 0.0;
   // Of each of its effects: logarithms of the evidence that its other variants have over the fitted one's, 0
@@ -28,6 +28,9 @@ struct Candidate {
   // Whether it says that something is at work that the library has no name for.
   bool unknown() const { return with_unknown || outside; }
 };
+// The logarithm of the evidence over that of nothing missing; 0 where nothing was not compared.
+double evidence_over_nothing(const Candidate& candidate, std::span<const Candidate> candidates);
+
 // Its effects that are of the library, and its causes from outside.
 std::vector<std::string> library_effects_of(const Candidate& candidate);
 std::vector<std::string> outside_causes_of(const Candidate& candidate);

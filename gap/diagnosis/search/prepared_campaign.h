@@ -54,8 +54,8 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
 Result<PreparedCampaign> prepare_as_believed(const DriveCampaign& campaign, const DiagnosisOptions& options,
                                              Progress& progress, const std::vector<bool>& looked_at = {});
 
-// Campaign and progress must outlive what is made of them. Channels that are not `looked_at` (empty: all are) are
-// not used. Errors: payload_too_large as above; cancelled.
+// Campaign and progress must outlive what is made of them. Channels that are not `looked_at` (empty: all are)
+// are not used. Errors: payload_too_large as above; cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
                                  Progress& progress, const std::vector<bool>& looked_at = {});
 
