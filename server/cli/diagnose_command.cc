@@ -238,6 +238,9 @@ int diagnose(const DiagnoseCommand& options) {
   if (!campaign) return refuse_unreadable(campaign.error());
   const auto reference = api::load_reference_drives(options.reference, *catalogue);
   if (!reference) return refuse_unreadable(reference.error());
+  // What can't be written is known before the work.
+  if (!options.report.empty())
+    if (const auto made = api::make_folder(options.report); !made) return refuse(made.error());
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);

@@ -14,6 +14,9 @@ trap 'rm -rf "$folder"' EXIT
 expect 0 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --json --report "$folder/report" --model "$folder/model"
 cp "$folder/out" "$folder/first.json"
 cmp "$folder/first.json" "$folder/report/diagnosis.json"
+# A report that can't be written is refused before the work.
+expect 1 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --json --report "$folder/first.json/report"
+[ ! -s "$folder/out" ]
 python3 - "$folder" <<'CHECK'
 import json, pathlib, sys, xml.dom.minidom
 folder = pathlib.Path(sys.argv[1])
