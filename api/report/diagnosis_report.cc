@@ -27,7 +27,7 @@ constexpr std::size_t kMaxCandidates = 10;
 constexpr double kMinMarginal = 0.01;  // of effects with a row of their own
 
 // What the verdict means, for someone who has not read the manual.
-std::string_view meaning(Verdict verdict) {
+std::string_view meaning(Verdict verdict, bool since_reference) {
   switch (verdict) {
     case Verdict::kNoGap:
       return "With parameters re-tuned within what was believed of them, prediction and drives agree as "
@@ -37,7 +37,9 @@ std::string_view meaning(Verdict verdict) {
     case Verdict::kParameters:
       return "No effect is missing. Known parameters were off, and re-tuning them explains the drives.";
     case Verdict::kEffects:
-      return "The simulator lacked the effects below; with them it explains the drives.";
+      return since_reference ? "The effects below have set in since the reference; with them the drives are "
+                               "explained."
+                             : "The simulator lacked the effects below; with them it explains the drives.";
     case Verdict::kEffectSet:
       return "Something is missing, and several explanations look alike on these drives. The best is below.";
     case Verdict::kUnknown:
@@ -49,7 +51,7 @@ std::string_view meaning(Verdict verdict) {
 }
 
 constexpr std::string_view kPartial =
-    "The simulator lacked the effects below. They explain a part: something unexplained remains beside them, "
+    "The effects below are at work. They explain a part: something unexplained remains beside them, "
     "and what is known of it is below too.";
 
 std::string_view why_no_model(Verdict verdict) {
@@ -95,8 +97,9 @@ class Report {
 
  private:
   void write_verdict() {
-    page_.paragraph(Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
-                          {fmt::format(": {}", d_.partial ? kPartial : meaning(d_.verdict))}});
+    page_.paragraph(
+        Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
+              {fmt::format(": {}", d_.partial ? kPartial : meaning(d_.verdict, d_.reference.has_value()))}});
     page_.paragraph(fmt::format("{}.", d_.reason));
     if (!d_.overturned_by.empty())
       page_.paragraph(fmt::format("What would overturn it: {}.", d_.overturned_by));
