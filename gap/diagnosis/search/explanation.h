@@ -39,8 +39,8 @@ Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowMode
 Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
                               const FittedExplanation& fit, std::vector<double>& start);
 
-// How far an effect of a fit is from not being there, in prior deviations: of the field that went
-// farthest, but for those that only say in which form it is at work.
+// How far an effect of a fit is from not being there, in prior deviations: of the field that went farthest,
+// but for those that only say in which form it is at work.
 double size_of(const FittedExplanation& fit, std::string_view effect);
 
 // All observations as measured.
