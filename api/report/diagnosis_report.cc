@@ -239,7 +239,7 @@ class Report {
     page_.table(
         {"parameter", "value, 90 % interval", "believed before", "deviations off", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)
-      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g} ± {:.3g}", p.believed, p.prior_std),
+      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g}, std {:.3g}", p.believed, p.prior_std),
                  fmt::format("{:+.1f}", (p.value.value - p.believed) / p.prior_std),
                  p.determined ? "yes" : "no"});
     add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");

@@ -166,7 +166,7 @@ class Diagnoser {
     const CauseShares cause_shares{
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
-    // With a reference closures and soils are believed as they were learnt.
+    // With a reference no closure stands in for an effect: the reference taught where it lies.
     const Beliefs beliefs{
         .closure_shift =
             [&](const Candidate& c) {

@@ -22,20 +22,18 @@ bool stands_beside_form(const EffectMarginal& marginal, const VerdictOptions& op
           marginal.closed_share >= options.min_partial_share);
 }
 
-// The most probable candidate with exactly these effects of the library, among those that `may` be taken.
-template <class May>
-std::optional<std::size_t> candidate_with(const ExplanationSearch& search, const Names& effects,
-                                          const May& may) {
-  for (std::size_t c = 0; c < search.candidates.size(); ++c)
-    if (may(search.candidates[c]) && set_of(library_effects_of(search.candidates[c])) == effects) return c;
-  return std::nullopt;
+// The most probable candidate of which this holds; none where no such was compared.
+template <class Holds>
+std::optional<std::size_t> candidate_where(const ExplanationSearch& search, const Holds& holds) {
+  const auto found = std::find_if(search.candidates.begin(), search.candidates.end(), holds);
+  if (found == search.candidates.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - search.candidates.begin());
 }
 
-// The candidate with exactly these causes and nothing of no known form; none where it was not compared.
+// With exactly these causes, and nothing of no known form.
 std::optional<std::size_t> known_with(const ExplanationSearch& search, const Names& causes) {
-  for (std::size_t c = 0; c < search.candidates.size(); ++c)
-    if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == causes) return c;
-  return std::nullopt;
+  return candidate_where(search,
+                         [&](const Candidate& c) { return !c.with_unknown && set_of(c.effects) == causes; });
 }
 
 bool is_effect(const std::string& cause) {
@@ -133,8 +131,9 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
     if (stands_beside_unknown(m, options) || (known_form && stands_beside_form(m, options)))
       names.insert(m.name);
   if (names.empty()) return as_chosen(search, chosen);
-  const auto any = candidate_with(search, names, [](const Candidate& c) { return c.unknown(); });
-  const auto alone = candidate_with(search, names, [](const Candidate& c) { return !c.outside; });
+  const auto has_names = [&](const Candidate& c) { return set_of(library_effects_of(c)) == names; };
+  const auto any = candidate_where(search, [&](const Candidate& c) { return c.unknown() && has_names(c); });
+  const auto alone = candidate_where(search, [&](const Candidate& c) { return !c.outside && has_names(c); });
   if (!any) return as_chosen(search, chosen);
   return {library_effects_of(search.candidates[*any]), true, chosen, *any, alone.value_or(*any)};
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/soil/soil_field.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -26,12 +28,11 @@ std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaig
   return faults;
 }
 
-bool same_numbers(const sim::Soil& a, const sim::Soil& b) {
-  return a.pressure.k_c == b.pressure.k_c && a.pressure.k_phi == b.pressure.k_phi &&
-         a.pressure.n == b.pressure.n && a.cohesion_pa == b.cohesion_pa &&
-         a.friction_angle_rad == b.friction_angle_rad && a.shear_modulus_x_m == b.shear_modulus_x_m &&
-         a.shear_modulus_y_m == b.shear_modulus_y_m && a.density_kg_m3 == b.density_kg_m3 && a.n1 == b.n1 &&
-         a.c1 == b.c1 && a.c2 == b.c2;
+// By copies, since rows of the catalogue give members to write to.
+bool same_numbers(sim::Soil a, sim::Soil b) {
+  const auto fields = sim::soil_fields();
+  return std::all_of(fields.begin(), fields.end(),
+                     [&](const sim::SoilField& row) { return row.number(a) == row.number(b); });
 }
 
 // As the reference has rover and soils, which what was learnt is relative to.

@@ -13,7 +13,7 @@
 #include <set>
 #include <system_error>
 
-#include "api/files/csv_cells.h"
+#include "api/files/campaign/recorded_table.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 using json::JsonValue;
 
 constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;
-constexpr std::size_t kMaxFaultsOfFile = 20;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<std::string> bytes_of(const fs::path& path) {
@@ -36,83 +35,6 @@ std::optional<std::string> bytes_of(const fs::path& path) {
   if (!stream) return std::nullopt;
   return std::string{std::istreambuf_iterator<char>(stream), {}};
 }
-
-// A recorded file: its columns' names and numbers.
-struct RecordedTable {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;  // NaN where a cell is empty
-  std::vector<std::size_t> lines;         // of each row, in the file
-};
-
-class TableReader {
- public:
-  TableReader(std::string file, char separator, std::vector<Fault>& faults)
-      : file_(std::move(file)), separator_(separator), faults_(faults) {}
-
-  // Only cells of the columns that are asked for must be numbers.
-  RecordedTable read(std::string_view bytes, const std::set<std::string>& asked) {
-    const std::vector<CsvLine> lines = csv_lines(bytes);
-    RecordedTable table;
-    if (lines.size() < 3) {
-      fault("",
-            fmt::format("{} has {} lines, must have a header and two rows at least", file_, lines.size()));
-      return table;
-    }
-    for (const std::string_view name : csv_cells(lines[0].text, separator_))
-      table.names.emplace_back(unquoted(name));
-    if (table.names.size() == 1 && !asked.contains(table.names.front())) {
-      fault("/1",
-            fmt::format("{}, line 1: cut at {} the header is one column, {}: check the mapping's separator",
-                        file_, separator_ == '\t' ? "tabs" : in_quotes(std::string(1, separator_)),
-                        in_quotes(table.names.front())));
-      return table;
-    }
-    for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
-    if (count_ > kMaxFaultsOfFile)
-      faults_.push_back(
-          {file_ + "#", fmt::format("{}: {} faults more like these", file_, count_ - kMaxFaultsOfFile)});
-    return table;
-  }
-
- private:
-  static std::string_view unquoted(std::string_view name) {
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
-    return name;
-  }
-
-  void fault(const std::string& place, const std::string& message) {
-    if (++count_ <= kMaxFaultsOfFile) faults_.push_back({file_ + "#" + place, message});
-  }
-
-  void read_row(const CsvLine& line, const std::set<std::string>& asked, RecordedTable& table) {
-    const std::vector<std::string_view> cells = csv_cells(line.text, separator_);
-    if (cells.size() != table.names.size())
-      return fault(fmt::format("/{}", line.number),
-                   fmt::format("{}, line {}: {} cells, must have {} as the header", file_, line.number,
-                               cells.size(), table.names.size()));
-    table.lines.push_back(line.number);
-    std::vector<double>& row = table.rows.emplace_back();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      row.push_back(kMissing);
-      if (!asked.contains(table.names[c]) || is_missing(cells[c])) continue;
-      if (const auto number = csv_number(cells[c]))
-        row.back() = *number;
-      else
-        fault(fmt::format("/{}/{}", line.number, table.names[c]),
-              fmt::format("{}, line {} ({}): {} is no finite number", file_, line.number, table.names[c],
-                          in_quotes(cells[c])));
-    }
-  }
-
-  static bool is_missing(std::string_view cell) {
-    return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA" || cell == "null";
-  }
-
-  std::string file_;
-  char separator_;
-  std::vector<Fault>& faults_;
-  std::size_t count_ = 0;
-};
 
 double seconds_of(const std::string& unit) {
   if (unit == "ms") return 1e-3;
@@ -207,7 +129,7 @@ class Importer {
       return;
     }
     const std::size_t before = faults_.size();
-    const RecordedTable table = TableReader(drive.file, mapping_.separator, faults_).read(*bytes, asked_);
+    const RecordedTable table = read_recorded_table(*bytes, drive.file, mapping_.separator, asked_, faults_);
     if (faults_.size() > before) return;
     for (const std::string& name : table.names)
       if (!asked_.contains(name)) passed_over_.insert(name);
