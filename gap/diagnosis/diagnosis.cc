@@ -174,13 +174,20 @@ class Diagnoser {
             },
         .are_bent_beyond =
             [&](const Candidate& c) {
-              return beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict).has_value();
+              return scatter_beyond_belief(furthest_scatter(), options_.verdict) ||
+                     beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict);
             }};
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
+  }
+
+  // None with a reference, which told of it.
+  std::optional<ScaleOffBelief> furthest_scatter() const {
+    if (campaign_.reference) return std::nullopt;
+    return prepared_.noise->furthest_above_belief();
   }
 
   bool is_withheld(std::string_view effect) const {
@@ -288,10 +295,9 @@ class Diagnoser {
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     withdraw_what_tells_no_better(closure->log_density_gain, d_);
-    ReportedAnswer answer{
-        reported_fit(), named_share_, evidence_over_nothing(best(), search_.candidates), {}};
-    if (!campaign_.reference) answer.scatter = prepared_.noise->furthest_above_belief();
-    doubt_answer(answer, options_.verdict, d_);
+    doubt_answer(
+        {reported_fit(), named_share_, evidence_over_nothing(best(), search_.candidates), furthest_scatter()},
+        options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);

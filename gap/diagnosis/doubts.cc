@@ -63,12 +63,6 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& reporte
   return std::nullopt;
 }
 
-std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
-                                                 const VerdictOptions& options) {
-  if (!scatter || scatter->deviations <= options.max_scatter) return std::nullopt;
-  return fmt::format("{} would scatter by {:.0f} times what was believed", scatter->of, scatter->times);
-}
-
 // Whether an effect that acts at a place is named: a patch is told from other causes by its place, and its
 // rim bends the soil around it.
 bool names_a_place(std::span<const std::string> effects) {
@@ -167,15 +161,22 @@ bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
                        [&](const EffectMarginal& m) { return stands_beside_unknown(m, options); });
 }
 
-bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
-  return of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
+// Whether each keeps its name in an explanation that is bent beyond belief.
+bool all_stand_beyond_belief(const Diagnosis& d, const VerdictOptions& options) {
+  return of_each_named(d, options, [&](const EffectMarginal& m) {
+    return stands_beyond_belief(m, options) ||
+           (stands_beside_unknown(m, options) && !may_be_wheel_law(m.name));
+  });
 }
 
-// Whether each is more probable than not; where other sets were alike, whether each is in nearly all of them.
+// Whether each is more probable than not, and no other wheel law; where other sets were alike, whether each
+// is in nearly all of them.
 bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
   const double least =
       d.verdict == Verdict::kEffects ? options.min_probability_closing_most : options.min_partial_probability;
-  return of_each_named(d, options, [&](const EffectMarginal& m) { return m.probability >= least; });
+  return of_each_named(d, options, [&](const EffectMarginal& m) {
+    return m.probability >= least && !may_be_wheel_law(m.name);
+  });
 }
 
 // What is held against an answer, and whether its names stand all the same.
@@ -189,15 +190,16 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
                               const Diagnosis& d) {
   std::optional<std::string> why = gap_left(d, options);
   if (!why) why = parameter_at_its_end(answer.fit);
-  if (why) return Doubt{*why, true, false};
-  const bool certain = all_certain(d, options), probable = all_probable(d, options);
+  if (why) return Doubt{*why, true, all_stand(d, options)};
+  const bool stand = all_stand_beyond_belief(d, options);
   why = beyond_belief(answer.fit, named(d), options);
-  if (why) return Doubt{*why, false, certain};
+  if (why) return Doubt{*why, false, stand};
   why = little_closed(answer, d, options);
   if (why) return Doubt{*why, false, false};
   why = scatter_beyond_belief(answer.scatter, options);
   if (why)
-    return Doubt{*why, false, certain || (probable && answer.closed_share >= options.min_partial_share)};
+    return Doubt{*why, false,
+                 stand || (all_probable(d, options) && answer.closed_share >= options.min_partial_share)};
   return std::nullopt;
 }
 
@@ -221,6 +223,12 @@ std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span
     return fmt::format("{} would be {:+.1f} deviations from what was believed of it", furthest.closure,
                        furthest.deviations);
   return soil_beyond_belief(fit, effects, options);
+}
+
+std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
+                                                 const VerdictOptions& options) {
+  if (!scatter || scatter->deviations <= options.max_scatter) return std::nullopt;
+  return fmt::format("{} would scatter by {:.0f} times what was believed", scatter->of, scatter->times);
 }
 
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {
@@ -255,8 +263,8 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
     return;
   const std::optional<Doubt> doubt = doubt_of(answer, options, d);
   if (!doubt) return;
-  // Names that stand keep their probability.
-  if (unknown < options.min_doubt && !doubt->names_stand)
+  // Names that stand keep their probability where the doubt is one of belief.
+  if (unknown < options.min_doubt && (doubt->of_a_gap || !doubt->names_stand))
     for (ComparedSet& c : d.candidates)
       c.probability *=
           c.with_unknown ? options.min_doubt / unknown : (1.0 - options.min_doubt) / (1.0 - unknown);
@@ -264,7 +272,7 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   take_marginals_anew(d);
   const std::vector<std::string> names = named(d);
-  if (doubt->names_stand || all_stand(d, options)) {
+  if (doubt->names_stand) {
     d.partial = true;
     d.verdict = Verdict::kEffects;
     d.reason = fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names),

@@ -41,6 +41,10 @@ ClosureShift furthest_closure(const FittedExplanation& fit);
 std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span<const std::string> effects,
                                          const VerdictOptions& options);
 
+// The drives' own scatter, in words, where it is beyond VerdictOptions::max_scatter.
+std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
+                                                 const VerdictOptions& options);
+
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,
 //   2. a parameter lies at the end of what it may be,
@@ -48,10 +52,11 @@ std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span
 //      acts at a place, beyond max_soil_shift,
 //   4. what is named closes less than min_named_share of the gap for all its strong_evidence, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
-// Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
-// cases 3 and 5 they do so if each is as good as certain (min_probability_beside_form and
-// min_share_beside_form), in case 5 also if they close min_partial_share together and each is more probable
-// than not, or has min_partial_probability where other sets were alike. d has its `gap`.
+// Effects keep their names in a partial answer where each may stand beside something unknown (naming.h). In
+// cases 3 and 5 none of them may be how another wheel law differs (may_be_wheel_law), for that is what is
+// asked for there; each may also be as good as certain (stands_beyond_belief), and in case 5 they may also
+// close min_partial_share together, each being more probable than not, or having min_partial_probability
+// where other sets were alike. In case 4 no name stands. d has its `gap`.
 void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

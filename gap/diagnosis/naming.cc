@@ -85,19 +85,24 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
   return stood_in_for ? chosen : *rest;
 }
 
-// Of several known causes beside which soils or closures are bent beyond belief those that are as good as
-// certain.
+// Of several known causes of an explanation that is bent beyond belief those that are as good as certain,
+// where nothing is bent with them alone, and otherwise those of them that stand there.
 std::size_t of_belief(const ExplanationSearch& search, std::size_t chosen,
                       std::span<const EffectMarginal> marginals, const Beliefs& beliefs,
                       const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || first.effects.size() < 2 || !beliefs.are_bent_beyond(first)) return chosen;
-  Names kept;
-  for (const EffectMarginal& m : marginals)
-    if (as_good_as_certain(m, options) &&
-        std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
-      kept.insert(m.name);
-  return kept.empty() ? chosen : known_with(search, kept).value_or(chosen);
+  const auto with_those = [&](bool (*stands)(const EffectMarginal&, const VerdictOptions&)) {
+    Names kept;
+    for (const EffectMarginal& m : marginals)
+      if (stands(m, options) &&
+          std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
+        kept.insert(m.name);
+    return kept.empty() ? std::nullopt : known_with(search, kept);
+  };
+  const auto certain = with_those(as_good_as_certain);
+  if (certain && !beliefs.are_bent_beyond(search.candidates[*certain])) return *certain;
+  return with_those(stands_beyond_belief).value_or(chosen);
 }
 
 Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
@@ -110,6 +115,16 @@ Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options) {
   return marginal.probability >= options.min_probability_beside_form &&
          marginal.closed_share >= options.min_share_beside_form;
+}
+
+bool may_be_wheel_law(const std::string& effect) {
+  if (!is_law(effect)) return false;
+  const sim::Effect& row = *sim::find_effect(effect);
+  return row.wheel_field.empty() && !row.reads_motor_temperature;
+}
+
+bool stands_beyond_belief(const EffectMarginal& marginal, const VerdictOptions& options) {
+  return as_good_as_certain(marginal, options) && !may_be_wheel_law(marginal.name);
 }
 
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options) {

@@ -34,7 +34,8 @@ struct CauseShares {
 // How far an explanation bends what was believed.
 struct Beliefs {
   std::function<double(const Candidate& candidate)> closure_shift;  // furthest_closure(), without its sign
-  std::function<bool(const Candidate& candidate)> are_bent_beyond;  // beyond_belief()
+  // beyond_belief(), or a scatter between drives beyond VerdictOptions::max_scatter
+  std::function<bool(const Candidate& candidate)> are_bent_beyond;
 };
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
@@ -46,7 +47,8 @@ struct Beliefs {
 // without it a closure would go beyond max_stand_in_shift that is within with it: the closure stands in for
 // the effect. What closes less than min_named_share in all is not named; where its evidence is strong
 // (strong_evidence), doubts.h says so. Of an explanation that is bent beyond belief only those effects are
-// kept that are as good as certain, where they were compared and there are any. Where nothing unknown is
+// kept that are as good as certain, if nothing is bent with them alone, and otherwise those that
+// stand_beyond_belief(), where they were compared and there are any. Where nothing unknown is
 // among the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
 // probability and share reach min_partial_probability and min_partial_share; of several these must stand
 // together in an explanation that was compared. Where what was chosen is a cause from outside, so that the
@@ -58,6 +60,14 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
 
 // min_probability_beside_form and min_share_beside_form are reached.
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options);
+
+// Whether an effect could be how another wheel law differs from this one: it changes what ground or gears do
+// to all wheels alike, wherever and however warm they turn.
+bool may_be_wheel_law(const std::string& effect);
+
+// Whether an effect keeps its name in an explanation that is bent beyond belief: it is as good as certain,
+// and what is bent does not say of it that the wheel law is another one.
+bool stands_beyond_belief(const EffectMarginal& marginal, const VerdictOptions& options);
 
 // Whether an effect may be named beside something unknown.
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);

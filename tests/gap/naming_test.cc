@@ -112,14 +112,36 @@ TEST(Naming, LeavesOutWhatClosesLittleAndHasLittleEvidence) {
 TEST(Naming, OfWhatIsBentBeyondBeliefKeepsWhatIsAsGoodAsCertain) {
   const ExplanationSearch search = search_of(
       {candidate({"multipass", "duricrust"}, 0.85), candidate({"multipass"}, 0.14), candidate({}, 0.01)});
-  const auto names = [&](double of_multipass, bool bent) {
+  const auto names = [&](double of_multipass, std::size_t bent_from) {
     const std::vector<EffectMarginal> marginals{{"multipass", of_multipass, 0.67}, {"duricrust", 0.9, 0.07}};
-    const Beliefs beliefs{[](const Candidate&) { return 0.0; }, [=](const Candidate&) { return bent; }};
+    const Beliefs beliefs{[](const Candidate&) { return 0.0; },
+                          [=](const Candidate& c) { return c.effects.size() >= bent_from; }};
     return named(search, marginals, {}, 1.0, 0.0, beliefs).effects;
   };
-  EXPECT_EQ(names(0.997, true), std::vector<std::string>{"multipass"});
-  EXPECT_EQ(names(0.997, false).size(), 2U);
-  EXPECT_EQ(names(0.98, true).size(), 2U) << "none is certain: the answer is doubted as a whole";
+  EXPECT_EQ(names(0.997, 2), std::vector<std::string>{"multipass"});
+  EXPECT_EQ(names(0.997, 3).size(), 2U);
+  EXPECT_EQ(names(0.98, 2).size(), 2U) << "none is certain: the answer is doubted as a whole";
+  EXPECT_EQ(names(0.997, 1).size(), 2U) << "the wheel law is another: so is this";
+}
+
+// Where the wheel law was another one (5701 s01, level L3) a wheel that drags stood beside a multipass that
+// the key does not have, on soils that both of them bent.
+TEST(Naming, OfAnotherWheelLawKeepsWhatIsNoLawOfAllWheels) {
+  const ExplanationSearch search =
+      search_of({candidate({"dragging_wheel", "multipass"}, 0.99), candidate({"dragging_wheel"}, 0.01)});
+  const Beliefs bent{[](const Candidate&) { return 0.0; }, [](const Candidate&) { return true; }};
+  EXPECT_EQ(
+      named(search, {{"dragging_wheel", 1.0, 0.58}, {"multipass", 1.0, 0.19}}, {}, 1.0, 0.0, bent).effects,
+      kDrag);
+}
+
+TEST(Naming, AnotherWheelLawMayBeAnyLawThatAllWheelsHave) {
+  for (const char* law : {"slip_sinkage", "multipass", "grousers", "bulldozing", "side_bulldozing",
+                          "duricrust", "hardpan", "rate_shear", "gearbox_friction"})
+    EXPECT_TRUE(may_be_wheel_law(law)) << law;
+  for (const char* other : {"motor_temperature", "soft_patch", "dragging_wheel", "com_offset", "wheel_radius",
+                            "steering_offset", "attitude_bias", "tether"})
+    EXPECT_FALSE(may_be_wheel_law(other)) << other;
 }
 
 // What a wrong equation of one soil law leaves, another may mimic. A larger radius mimics no soil law, and a

@@ -117,14 +117,14 @@ TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
 }
 
 // An answer with so much of its floor left on held-out drives, at least.
-Diagnosis answer_with(Verdict verdict, double least_left) {
+Diagnosis answer_with(Verdict verdict, double least_left, const std::string& effect = "hardpan") {
   Diagnosis d;
   d.verdict = verdict;
   const bool names = verdict == Verdict::kEffects || verdict == Verdict::kEffectSet;
-  if (names) d.effects.push_back({"hardpan", "", 0.95, {}});
-  d.marginals.push_back({.name = "hardpan", .probability = 0.95, .closed_share = 0.4});
+  if (names) d.effects.push_back({effect, "", 0.95, {}});
+  d.marginals.push_back({.name = effect, .probability = 0.95, .closed_share = 0.4});
   d.candidates.resize(2);
-  if (names) d.candidates[0].effects = {"hardpan"};
+  if (names) d.candidates[0].effects = {effect};
   d.candidates[0].probability = 0.95;
   d.candidates[1].with_unknown = true;
   d.candidates[1].probability = 0.05;
@@ -182,10 +182,10 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   campaign.soils.resize(1);
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
-  const auto doubted = [&](Verdict verdict, double deviations, double closed_share,
-                           double probability = 0.8) {
-    Diagnosis d = answer_with(verdict, 1.0);
-    d.marginals.front() = {.name = "hardpan", .probability = probability, .closed_share = closed_share};
+  const auto doubted = [&](Verdict verdict, double deviations, double closed_share, double probability = 0.8,
+                           const std::string& effect = "dragging_wheel") {
+    Diagnosis d = answer_with(verdict, 1.0, effect);
+    d.marginals.front() = {.name = effect, .probability = probability, .closed_share = closed_share};
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
     doubt_answer({reported, closed_share, 100.0, scatter}, VerdictOptions{}, d);
     return d;
@@ -208,6 +208,8 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   EXPECT_NE(nothing.reason.find("closes 5 %"), std::string::npos) << nothing.reason;
   EXPECT_EQ(doubted(Verdict::kEffectSet, 3.3, 0.6).verdict, Verdict::kUnknown) << "others were alike";
   EXPECT_TRUE(doubted(Verdict::kEffectSet, 3.3, 0.6, 0.95).partial) << "it is in nearly all of them";
+  EXPECT_EQ(doubted(Verdict::kEffects, 3.3, 0.6, 0.999, "multipass").verdict, Verdict::kUnknown)
+      << "another wheel law would look like this one";
 }
 
 // With grousers withheld, a larger wheel "explained" them on soil 4.7 deviations more cohesive than believed.
@@ -228,8 +230,9 @@ class SoilBeyondBelief : public ::testing::Test {
     }
     return fit;
   }
-  Diagnosis doubted(const Shift& shift, Verdict verdict = Verdict::kEffects, double probability = 0.9) const {
-    Diagnosis d = answer_with(verdict, 1.0);
+  Diagnosis doubted(const Shift& shift, Verdict verdict = Verdict::kEffects, double probability = 0.9,
+                    const std::string& effect = "dragging_wheel") const {
+    Diagnosis d = answer_with(verdict, 1.0, effect);
     d.marginals.front().probability = probability;
     doubt_answer({fit_with(shift), 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
@@ -247,6 +250,8 @@ TEST_F(SoilBeyondBelief, TakesNamesBackThatAreNotAsGoodAsCertain) {
   EXPECT_NE(bent.reason.find("5.5 deviations"), std::string::npos) << bent.reason;
   EXPECT_NE(bent.reason.find("cohesion/bedrock alone -4.7"), std::string::npos) << bent.reason;
   EXPECT_TRUE(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999).partial) << "it is as good as certain";
+  EXPECT_EQ(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999, "hardpan").verdict, Verdict::kUnknown)
+      << "another wheel law would look like this one";
   EXPECT_EQ(doubted({0.0, -4.7, 2.8}, Verdict::kParameters).verdict, Verdict::kParameters)
       << "mis-set parameters are an answer";
 }
@@ -279,12 +284,13 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
   DriveCampaign campaign;
   campaign.soils.resize(1);
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
-  const auto doubted = [&](double deviations, Verdict verdict, double probability) {
+  const auto doubted = [&](double deviations, Verdict verdict, double probability,
+                           const std::string& effect = "dragging_wheel") {
     reported.x = reported.hypothesis.neutral();
     for (std::size_t p = 0; p < reported.x.size(); ++p)
       if (reported.hypothesis.parameters()[p].name == "c1")
         reported.x[p] = deviations * reported.hypothesis.parameters()[p].std;
-    Diagnosis d = answer_with(verdict, 1.0);
+    Diagnosis d = answer_with(verdict, 1.0, effect);
     d.marginals.front().probability = probability;
     doubt_answer({reported, 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
@@ -297,6 +303,8 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
   }
   EXPECT_EQ(doubted(7.0, Verdict::kEffects, 0.9).verdict, Verdict::kUnknown);
   EXPECT_TRUE(doubted(7.0, Verdict::kEffects, 1.0).partial) << "it is as good as certain";
+  EXPECT_EQ(doubted(7.0, Verdict::kEffects, 1.0, "multipass").verdict, Verdict::kUnknown)
+      << "another wheel law would look like this one";
 }
 
 // With multipass withheld, a hard layer of probability 0.94 and a log evidence of 135 closed 9 % of the gap.
