@@ -89,7 +89,7 @@ status=0
 sed -e 's/separator = ";"/separator = "tab"/' "$folder/team/yard.toml" >"$folder/team/wrong.toml"
 status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
-[ "$status" = 2 ] && [ "$(grep -c 'check the mapping.s separator' "$folder/err")" = 3 ] && ! grep -q heading_ "$folder/err" && ! grep -q 'no column' "$folder/err"
+[ "$status" = 2 ] && [ "$(grep -c 'separated by ";", must be separated by tabs: change the key separator of the mapping' "$folder/err")" = 3 ] && ! grep -q heading_ "$folder/err" && ! grep -q 'no column' "$folder/err"
 
 # What the campaign's own reader refuses is placed in the log as well.
 cp -r "$folder/team" "$folder/hot"
