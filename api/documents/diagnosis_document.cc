@@ -227,7 +227,7 @@ void write_least_detectable(Writer& w, const Diagnosis& d) {
 
 void write_next_drives(Writer& w, const Diagnosis& d) {
   w.key("next_drives").begin_array();
-  for (const gap::NextDrive& drive : d.next_drives) {
+  for (const gap::NextDrive& drive : gap::offered_drives(d)) {
     w.begin_object().significant("tilt_deg", drive.tilt_deg).significant("heading_deg", drive.heading_deg);
     w.significant("speed_m_s", drive.speed_m_s).significant("curvature_1_m", drive.curvature_1_m);
     w.significant("motor_temp_c", drive.motor_temp_c);

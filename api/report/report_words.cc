@@ -1,6 +1,12 @@
 #include "api/report/report_words.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
 
@@ -23,6 +29,39 @@ std::string probability_words(double p) {
   return p > 0.0 && p < 0.001   ? "below 0.001"
          : p < 1.0 && p > 0.999 ? "above 0.999"
                                 : fmt::format("{:.3f}", p);
+}
+
+std::string unit_words(std::string_view unit) {
+  return unit.empty() || unit == "1" ? std::string() : fmt::format(" {}", unit);
+}
+
+std::string_view effect_summary(std::string_view effect) {
+  const sim::Effect* const row = sim::find_effect(effect);
+  return row != nullptr ? row->summary : std::string_view();
+}
+
+std::string_view effect_unit(std::string_view effect, std::string_view parameter) {
+  const sim::Effect* const row = sim::find_effect(effect);
+  if (row == nullptr) return {};
+  const auto field = std::find_if(row->fields.begin(), row->fields.end(),
+                                  [&](const Field& f) { return f.name == parameter; });
+  return field != row->fields.end() ? field->unit : std::string_view();
+}
+
+std::string outside_parameters_words(const gap::ResidualShape& cause) {
+  std::vector<std::string> sizes;
+  for (const gap::FoundParameter& p : cause.parameters)
+    sizes.push_back(fmt::format("{} = {}{}", p.name, interval_words(p.value), unit_words(cause.unit)));
+  return fmt::format("{}", fmt::join(sizes, ", "));
+}
+
+std::string no_drive_offered_words() {
+  return fmt::format(
+      "No further drive on a plane would tell much more: of those that were compared (level and on slopes, "
+      "up, across and down, forward and backward) none is expected to bring {:g} bits of which explanation "
+      "is "
+      "true, below which none is proposed.",
+      gap::kLeastOfferedBits);
 }
 
 }  // namespace slipway::api

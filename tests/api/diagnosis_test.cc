@@ -1,6 +1,7 @@
 // What is made of a diagnosis: its document, its corrected model, its report. The diagnosis itself is made
 // up.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -252,6 +253,52 @@ TEST_F(ADiagnosis, OffersAnotherVersionOfOtherNumbersAndNoneWhereNoneWasFound) {
   other.model.reset();
   EXPECT_FALSE(corrected_model(campaign(), other));
   EXPECT_EQ(document(other).find("model"), nullptr);
+}
+
+TEST_F(ADiagnosis, IsReportedWithItsRoverGravityAndDates) {
+  const std::string undated = diagnosis_report(campaign(), diagnosis(), {}).markdown();
+  EXPECT_NE(undated.find("| mer-class (174 kg, 6 wheels) | 3.71 | nominal |"), std::string::npos) << undated;
+  EXPECT_NE(undated.find("| 44, from D001 to D044 | not recorded"), std::string::npos) << undated;
+  gap::DriveCampaign dated = campaign();
+  constexpr double kLanding_s = 1'344'230'220.0;  // 2012-08-06 05:17 UTC
+  for (gap::MeasuredDriveSeries& drive : dated.drives)
+    for (gap::DriveSample& sample : drive.samples) sample.time_s += kLanding_s;
+  EXPECT_NE(diagnosis_report(dated, diagnosis(), {}).markdown().find("| 2012-08-06 05:17 to 2012-08-06 05:"),
+            std::string::npos);
+}
+
+TEST_F(ADiagnosis, IsReportedWithTheSentenceOfEveryEffectAndUnits) {
+  const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
+  for (const gap::FoundEffect& found : diagnosis().effects)
+    EXPECT_NE(report.find(fmt::format("| {} | {} |", found.name, sim::find_effect(found.name)->summary)),
+              std::string::npos)
+        << found.name;
+  EXPECT_NE(report.find("| grousers | height_m | 0.01 m |"), std::string::npos) << report;
+  EXPECT_NE(report.find("force_n = -25 (-27 to -23) N"), std::string::npos) << report;
+  EXPECT_NE(report.find("centre of mass above where the rover's file has it, m |"), std::string::npos);
+}
+
+TEST_F(ADiagnosis, ShowsOptionsThatAreNotTheDefaultAndFoldsTheRest) {
+  const std::string usual = diagnosis_report(campaign(), diagnosis(), {}).html();
+  EXPECT_NE(usual.find("has its default"), std::string::npos);
+  EXPECT_NE(usual.find("<details>\n<summary>All of these numbers"), std::string::npos);
+  gap::DiagnosisOptions options;
+  options.fit.huber = 3.0;
+  gap::Diagnosis other = diagnosis();
+  other.options = gap::listed_options(options);
+  EXPECT_NE(diagnosis_report(campaign(), other, {}).markdown().find("| fit | huber | 3 | 4 |"),
+            std::string::npos);
+}
+
+// A drive of which next to nothing is expected is offered to nobody.
+TEST_F(ADiagnosis, OffersNoDriveThatWouldTellNextToNothing) {
+  gap::Diagnosis d = diagnosis();
+  d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 0.4}, {5.0, 0.0, 0.04, 0.0, 20.0, 0.01}};
+  EXPECT_EQ(document(d).find("next_drives")->elements.size(), 1U);
+  d.next_drives.erase(d.next_drives.begin());
+  EXPECT_TRUE(document(d).find("next_drives")->elements.empty());
+  const std::string report = diagnosis_report(campaign(), d, {}).markdown();
+  EXPECT_NE(report.find("none is expected to bring 0.05 bits"), std::string::npos) << report;
 }
 
 TEST_F(ADiagnosis, IsReportedWithItsPictures) {

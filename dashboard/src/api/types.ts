@@ -2575,7 +2575,7 @@ export interface components {
                 parameter: string;
                 value: number;
             }[];
-            /** @description Drives that would tell most, best first */
+            /** @description Drives that would tell most, best first; none that is expected to bring less than 0.05 bits */
             next_drives: {
                 tilt_deg: number;
                 heading_deg: number;
