@@ -77,11 +77,12 @@ std::string set_words(const std::vector<std::string>& names) {
 
 class Report {
  public:
-  Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts)
-      : campaign_(campaign), d_(d), charts_(charts), page_(fmt::format("Diagnosis of {}", d.campaign)) {}
+  Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts,
+         ReportPage& page)
+      : campaign_(campaign), d_(d), charts_(charts), page_(page) {}
 
-  ReportPage write() {
-    write_what_was_diagnosed(page_, campaign_, d_);
+  void write() {
+    write_what_was_driven(page_, campaign_);
     write_verdict();
     write_how_to_read();
     write_reference(page_, d_);
@@ -95,7 +96,6 @@ class Report {
     write_model();
     write_notes();
     write_options(page_, d_);
-    return std::move(page_);
   }
 
  private:
@@ -227,14 +227,21 @@ class Report {
   const gap::DriveCampaign& campaign_;
   const Diagnosis& d_;
   const std::vector<NamedChart>& charts_;
-  ReportPage page_;
+  ReportPage& page_;
 };
 
 }  // namespace
 
 ReportPage diagnosis_report(const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
                             const std::vector<NamedChart>& charts) {
-  return Report(campaign, diagnosis, charts).write();
+  ReportPage page(fmt::format("Diagnosis of {}", diagnosis.campaign));
+  write_diagnosis(page, campaign, diagnosis, charts);
+  return page;
+}
+
+void write_diagnosis(ReportPage& page, const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
+                     const std::vector<NamedChart>& charts) {
+  Report(campaign, diagnosis, charts, page).write();
 }
 
 }  // namespace slipway::api

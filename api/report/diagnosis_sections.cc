@@ -94,8 +94,8 @@ void write_residual(ReportPage& page, const Diagnosis& d) {
 
 }  // namespace
 
-void write_what_was_diagnosed(ReportPage& page, const gap::DriveCampaign& campaign, const Diagnosis& d) {
-  const sim::RoverModel& rover = d.nominal_rover ? *d.nominal_rover : *campaign.rover;
+void write_what_was_driven(ReportPage& page, const gap::DriveCampaign& campaign) {
+  const sim::RoverModel& rover = *campaign.rover;
   std::vector<std::string> soils, terrains;
   for (const gap::NominalSoil& soil : campaign.soils) soils.push_back(soil.name);
   for (const gap::CampaignTerrain& terrain : campaign.terrains) terrains.push_back(terrain.name);

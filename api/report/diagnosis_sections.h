@@ -11,7 +11,7 @@ namespace slipway::api {
 
 // Which rover drove where and when: rover, gravity, soils, terrains, drives with their dates where the
 // recorded times are seconds since 1970.
-void write_what_was_diagnosed(ReportPage& page, const gap::DriveCampaign& campaign, const gap::Diagnosis& d);
+void write_what_was_driven(ReportPage& page, const gap::DriveCampaign& campaign);
 
 // The effects found, each with its sentence from the catalogue and its parameters with their units.
 void write_found_effects(ReportPage& page, const gap::Diagnosis& d);

@@ -24,6 +24,7 @@
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/command_parts.h"
+#include "server/cli/report_output.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
 
@@ -192,18 +193,11 @@ std::string answer_words(const Diagnosis& d) {
   return out;
 }
 
-std::vector<OutputFile> report_files(const std::string& folder, const gap::DriveCampaign& campaign,
+std::vector<OutputFile> report_files(const std::string& path, const gap::DriveCampaign& campaign,
                                      const Diagnosis& d) {
-  const std::filesystem::path path(folder);
   const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
-  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
-  std::vector<OutputFile> files{
-      {(path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d)},
-      {(path / "report.md").string(), report.markdown()},
-      {(path / "report.html").string(), report.html()}};
-  for (const api::NamedChart& chart : charts)
-    files.push_back({(path / (chart.name + ".svg")).string(), chart.svg});
-  return files;
+  return report_output(path, api::diagnosis_report(campaign, d, charts), charts, "diagnosis.json",
+                       api::json::diagnosis_document(campaign, d));
 }
 
 // The files of the corrected model; none where none is offered.
@@ -246,7 +240,7 @@ int diagnose(const DiagnoseCommand& options) {
   if (!reference) return refuse_unreadable(reference.error());
   // What can't be written is known before the work.
   if (!options.report.empty())
-    if (const auto made = api::make_folder(options.report); !made) return refuse(made.error());
+    if (const auto made = make_room_for_report(options.report); !made) return refuse(made.error());
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);
@@ -267,7 +261,7 @@ int diagnose(const DiagnoseCommand& options) {
     if (folder) files.insert(files.end(), into_it.begin(), into_it.end());
   };
   if (!options.report.empty())
-    add(api::make_folder(options.report), report_files(options.report, *campaign, d));
+    add(make_room_for_report(options.report), report_files(options.report, *campaign, d));
   if (!options.model.empty()) {
     const std::vector<OutputFile> model = model_files(options.model, *campaign, d);
     add(clear_model(options.model, !model.empty()), model);
