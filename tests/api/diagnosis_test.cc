@@ -1,7 +1,6 @@
 // What is made of a diagnosis: its document, its corrected model, its report. The diagnosis itself is made
 // up.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -269,10 +268,9 @@ TEST_F(ADiagnosis, IsReportedWithItsRoverGravityAndDates) {
 
 TEST_F(ADiagnosis, IsReportedWithTheSentenceOfEveryEffectAndUnits) {
   const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
-  for (const gap::FoundEffect& found : diagnosis().effects)
-    EXPECT_NE(report.find(fmt::format("| {} | {} |", found.name, sim::find_effect(found.name)->summary)),
-              std::string::npos)
-        << found.name;
+  for (const char* words : {"| motor_temperature | the motors' torque constant, resistance",
+                            "| slip_sinkage | a slipping wheel digs itself in"})
+    EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_NE(report.find("| grousers | height_m | 0.01 m |"), std::string::npos) << report;
   EXPECT_NE(report.find("force_n = -25 (-27 to -23) N"), std::string::npos) << report;
   EXPECT_NE(report.find("centre of mass above where the rover's file has it, m |"), std::string::npos);
