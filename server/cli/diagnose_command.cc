@@ -24,7 +24,6 @@
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/report_output.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
 

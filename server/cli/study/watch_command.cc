@@ -14,7 +14,6 @@
 #include "gap/diagnosis/drive_watch.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
-#include "server/cli/report_output.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
 
