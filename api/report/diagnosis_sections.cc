@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/documents/diagnosis_document.h"
 #include "api/report/report_words.h"
 #include "core/utc.h"
 #include "gap/diagnosis/model/nuisance_catalogue.h"
@@ -154,7 +155,7 @@ void write_unknown(ReportPage& page, const Diagnosis& d) {
 void write_next_drives(ReportPage& page, const Diagnosis& d) {
   if (d.verdict == gap::Verdict::kInsufficient) return;
   page.section("Drives that would tell most");
-  const std::vector<gap::NextDrive> offered = gap::offered_drives(d);
+  const std::vector<gap::NextDrive> offered = json::offered_drives(d);
   if (offered.empty()) return page.paragraph(no_drive_offered_words());
   page.table({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
               "expected information, bits"});

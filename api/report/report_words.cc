@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "api/documents/diagnosis_document.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
@@ -61,7 +62,7 @@ std::string no_drive_offered_words() {
       "up, across and down, forward and backward) none is expected to bring {:g} bits of which explanation "
       "is "
       "true, below which none is proposed.",
-      gap::kLeastOfferedBits);
+      json::kLeastOfferedBits);
 }
 
 }  // namespace slipway::api

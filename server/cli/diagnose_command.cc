@@ -151,7 +151,7 @@ std::string reference_words(const gap::ReferenceSummary& reference) {
 
 std::string next_drives_words(const Diagnosis& d) {
   if (d.verdict == gap::Verdict::kInsufficient) return {};
-  const std::vector<gap::NextDrive> offered = gap::offered_drives(d);
+  const std::vector<gap::NextDrive> offered = api::json::offered_drives(d);
   if (offered.empty()) return "\n" + api::no_drive_offered_words() + "\n";
   std::string out = "\ndrives that would say most:\n";
   for (const gap::NextDrive& n : offered)

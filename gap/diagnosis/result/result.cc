@@ -29,12 +29,4 @@ std::vector<std::string> names_of(const ComparedSet& set) {
   return names;
 }
 
-std::vector<NextDrive> offered_drives(const Diagnosis& diagnosis) {
-  std::vector<NextDrive> offered = diagnosis.next_drives;
-  // Drives whose information is no number are not offered either.
-  std::erase_if(offered,
-                [](const NextDrive& drive) { return !(drive.information_bits >= kLeastOfferedBits); });
-  return offered;
-}
-
 }  // namespace slipway::gap

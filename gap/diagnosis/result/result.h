@@ -277,10 +277,4 @@ struct Diagnosis {
   NoiseScales noise;
 };
 
-// A drive that is expected to bring fewer bits than this is not offered to anybody: twenty such drives would
-// tell as much as one question that is answered with yes or no. Diagnosis::next_drives has weaker ones too,
-// in their order of information, down to NextDriveOptions::min_bits.
-inline constexpr double kLeastOfferedBits = 0.05;
-std::vector<NextDrive> offered_drives(const Diagnosis& diagnosis);
-
 }  // namespace slipway::gap
