@@ -166,12 +166,13 @@ class Report {
         "would "
         "uncover them: those parameters measured apart from drives (parameter_std of the campaign says so). "
         "Deviations are those by which the effect shows.");
-    page_.table({"effect", "shows now by", "would show by", "once known from"});
+    page_.table({"effect", "shows now by", "would show by", "once known from", "what it is"});
     for (const gap::MeasurementProposal& proposal : d_.measurements) {
       std::vector<std::string_view> ways;
       for (const gap::NuisanceKind kind : proposal.kinds) ways.push_back(gap::measurement_of(kind));
       page_.row({proposal.effect, fmt::format("{:.1f}", proposal.deviations_now),
-                 fmt::format("{:.1f}", proposal.deviations_then), fmt::format("{}", fmt::join(ways, "; "))});
+                 fmt::format("{:.1f}", proposal.deviations_then), fmt::format("{}", fmt::join(ways, "; ")),
+                 effect_summary(proposal.effect)});
     }
   }
 

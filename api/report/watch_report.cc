@@ -27,11 +27,13 @@ std::vector<gap::ChangeShare> likeliest_causes(const DriveWatch& watch) {
           watch.causes.begin() + static_cast<std::ptrdiff_t>(std::min(kMaxCauses, watch.causes.size()))};
 }
 
-// "drive D030", or "one of the drives D028 to D031"
+// "D030", or "one of D028 to D031 (93 % of the evidence at the alarm), most probably D030".
 std::string onset_words(const DriveWatch& watch) {
-  const std::string& first = watch.drives[watch.onset.first].id;
-  if (watch.onset.first == watch.onset.last) return fmt::format("drive {}", first);
-  return fmt::format("one of the drives {} to {}", first, watch.drives[watch.onset.last].id);
+  const std::string& likeliest = watch.drives[watch.since].id;
+  const std::string share = fmt::format("({:.0f} % of the evidence at the alarm)", 100.0 * watch.onset.share);
+  if (watch.onset.first == watch.onset.last) return fmt::format("{} {}", likeliest, share);
+  return fmt::format("one of {} to {} {}, most probably {}", watch.drives[watch.onset.first].id,
+                     watch.drives[watch.onset.last].id, share, likeliest);
 }
 
 // An axis of drives: their names where there is room, else their numbers from 1.
@@ -112,7 +114,9 @@ void write_drives(ReportPage& page, const DriveWatch& watch) {
 
 void write_first_pointer(ReportPage& page, const DriveWatch& watch) {
   page.section("A first pointer, which is no diagnosis");
-  page.paragraph(first_pointer_words(watch) + ".");
+  page.paragraph(
+      "What the change looks like at the moment of the alarm, by derivatives alone and without causes from "
+      "outside:");
   page.table({"what could have changed", "share of the evidence at the alarm", "what it is"});
   for (const gap::ChangeShare& cause : likeliest_causes(watch))
     page.row({cause.name, fmt::format("{:.0f} %", 100.0 * cause.share), effect_summary(cause.name)});
@@ -124,11 +128,9 @@ void write_first_pointer(ReportPage& page, const DriveWatch& watch) {
 std::string change_words(const DriveWatch& watch) {
   if (!watch.alarm) return "nothing has changed as far as these drives show";
   return fmt::format(
-      "something has changed: alarm at drive {}; the first drive that differs is {} ({:.0f} % of the "
-      "evidence "
-      "at the alarm), most probably {} ({} drives up to the alarm)",
-      watch.drives[*watch.alarm].id, onset_words(watch), 100.0 * watch.onset.share,
-      watch.drives[watch.since].id, *watch.alarm - watch.since + 1);
+      "something has changed: the first drive that differs is {}; the alarm was raised at {} ({} drives from "
+      "the most probable one on)",
+      onset_words(watch), watch.drives[*watch.alarm].id, *watch.alarm - watch.since + 1);
 }
 
 std::string first_pointer_words(const DriveWatch& watch) {
@@ -144,9 +146,9 @@ std::string first_pointer_words(const DriveWatch& watch) {
 
 std::string deciding_words(const DriveWatch& watch) {
   if (!watch.alarm) return {};
-  if (!watch.diagnosis) return "no diagnosis was made, and the first pointer does not stand in for one";
+  if (!watch.diagnosis) return "No diagnosis was made, and the first pointer does not stand in for one";
   return fmt::format(
-      "the answer is the diagnosis of the drives from {} on; where it differs from the first pointer, the "
+      "The answer is the diagnosis of the drives from {} on; where it differs from the first pointer, the "
       "diagnosis counts",
       watch.drives[watch.since].id);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -50,6 +51,7 @@ std::vector<ColumnLimit> column_limits(const DriveCampaign& read) {
   double rate_deg_s = 0.0;
   for (const MeasuredDriveSeries& drive : read.drives)
     rate_deg_s = std::max(rate_deg_s, deg_from_rad(commanded_rate(read, drive)));
+  if (rate_deg_s == 0.0) rate_deg_s = std::numeric_limits<double>::infinity();  // nothing to compare with
   return {
       {"roll_deg", "deg", 45.0, 90.0, "no rover drives on steeper ground", "the rover would lie on its back"},
       {"pitch_deg", "deg", 45.0, 90.0, "no rover drives on steeper ground",
