@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/diagnosis_document.h"
@@ -272,7 +273,11 @@ TEST_F(ADiagnosis, IsReportedWithTheSentenceOfEveryEffectAndUnits) {
                             "| slip_sinkage | a slipping wheel digs itself in"})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_NE(report.find("| grousers | height_m | 0.01 m |"), std::string::npos) << report;
-  EXPECT_NE(report.find("force_n = -25 (-27 to -23) N"), std::string::npos) << report;
+  gap::Diagnosis pulled = diagnosis();
+  std::swap(pulled.residual[0], pulled.residual[1]);  // a cause from outside comes first
+  const std::string of_pull = diagnosis_report(campaign(), pulled, {}).markdown();
+  EXPECT_NE(of_pull.find("force_n = -25 (-27 to -23) N"), std::string::npos) << of_pull;
+  EXPECT_NE(of_pull.find("it takes away 40 % of the gap that re-tuning leaves"), std::string::npos);
   EXPECT_NE(report.find("centre of mass above where the rover's file has it, m |"), std::string::npos);
 }
 
