@@ -58,10 +58,9 @@ std::string outside_parameters_words(const gap::ResidualShape& cause) {
 
 std::string no_drive_offered_words() {
   return fmt::format(
-      "No further drive on a plane would tell much more: of those that were compared (level and on slopes, "
-      "up, across and down, forward and backward) none is expected to bring {:g} bits of which explanation "
-      "is "
-      "true, below which none is proposed.",
+      "No further drive on a plane would tell much more: none of those compared is expected to bring {:g} "
+      "bits "
+      "of which explanation is true.",
       json::kLeastOfferedBits);
 }
 

@@ -301,7 +301,8 @@ TEST_F(ADiagnosis, OffersNoDriveThatWouldTellNextToNothing) {
   d.next_drives.erase(d.next_drives.begin());
   EXPECT_TRUE(document(d).find("next_drives")->elements.empty());
   const std::string report = diagnosis_report(campaign(), d, {}).markdown();
-  EXPECT_NE(report.find("none is expected to bring 0.05 bits"), std::string::npos) << report;
+  EXPECT_NE(report.find("none of those compared is expected to bring 0.05 bits"), std::string::npos)
+      << report;
 }
 
 TEST_F(ADiagnosis, IsReportedWithItsPictures) {

@@ -24,7 +24,10 @@ grep -q '<figure id="evidence">' "$folder/healthy.html"
 "$sealed_campaigns" "$folder/gentle" --set each --only wheel_radius --fidelity L3 --size 1 --seed 2302 --since 9 --references yes
 "$slipway" watch "$folder/gentle/references/s01" --learn 20 --data "$data" --no-diagnosis >"$folder/words"
 grep -q 'nothing has changed' "$folder/words"
-"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/since.json"
+"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --report "$folder/since" >"$folder/since.txt"
+# What the reference taught is a table of short lines.
+grep -q '^channel  *learnt, rms  *left open, rms  *unit$' "$folder/since.txt"
+if sed -n '/what has changed since/,/^would overturn/p' "$folder/since.txt" | grep '^.\{150\}'; then exit 1; fi
 python3 - "$folder" <<'CHECK'
 import json, pathlib, sys, xml.dom.minidom
 folder = pathlib.Path(sys.argv[1])
@@ -49,7 +52,7 @@ diagnosis = watch["diagnosis"]
 assert diagnosis["format"] == "diagnosis/1" and diagnosis["reference"]["drives"] > 30
 named = sum(c["probability"] for c in diagnosis["candidates"] if "gearbox_friction" in c["effects"])
 assert named > 0.3, diagnosis["candidates"]
-since = json.loads((folder / "since.json").read_text())
+since = json.loads((folder / "since" / "diagnosis.json").read_text())
 assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
 CHECK
 # Drives of another rover are no reference.
