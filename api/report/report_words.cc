@@ -4,12 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "api/documents/diagnosis_document.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
+namespace {
+
+// The unit that the name of a cause's parameter ends with: "force_n" is in N, "gain" has none.
+std::string_view unit_in(std::string_view parameter) {
+  for (const auto& [ending, unit] : {std::pair<std::string_view, std::string_view>{"_n", "N"},
+                                     {"_nm", "N m"},
+                                     {"_m", "m"},
+                                     {"_rad", "rad"}})
+    if (parameter.ends_with(ending)) return unit;
+  return {};
+}
+
+}  // namespace
 
 std::string interval_words(const gap::Interval& x, double unit) {
   if (!std::isfinite(x.value)) return "none";
@@ -52,7 +66,7 @@ std::string_view effect_unit(std::string_view effect, std::string_view parameter
 std::string outside_parameters_words(const gap::ResidualShape& cause) {
   std::vector<std::string> sizes;
   for (const gap::FoundParameter& p : cause.parameters)
-    sizes.push_back(fmt::format("{} = {}{}", p.name, interval_words(p.value), unit_words(cause.unit)));
+    sizes.push_back(fmt::format("{} = {}{}", p.name, interval_words(p.value), unit_words(unit_in(p.name))));
   return fmt::format("{}", fmt::join(sizes, ", "));
 }
 

@@ -275,8 +275,10 @@ TEST_F(ADiagnosis, IsReportedWithTheSentenceOfEveryEffectAndUnits) {
   EXPECT_NE(report.find("| grousers | height_m | 0.01 m |"), std::string::npos) << report;
   gap::Diagnosis pulled = diagnosis();
   std::swap(pulled.residual[0], pulled.residual[1]);  // a cause from outside comes first
+  pulled.residual[0].parameters.push_back({"height_m", {0.4, 0.3, 0.5}});
   const std::string of_pull = diagnosis_report(campaign(), pulled, {}).markdown();
-  EXPECT_NE(of_pull.find("force_n = -25 (-27 to -23) N"), std::string::npos) << of_pull;
+  EXPECT_NE(of_pull.find("force_n = -25 (-27 to -23) N, height_m = 0.4 (0.3 to 0.5) m"), std::string::npos)
+      << of_pull;
   EXPECT_NE(of_pull.find("it takes away 40 % of the gap that re-tuning leaves"), std::string::npos);
   EXPECT_NE(report.find("centre of mass above where the rover's file has it, m |"), std::string::npos);
 }
