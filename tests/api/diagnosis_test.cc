@@ -8,7 +8,6 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/diagnosis_document.h"
@@ -253,58 +252,6 @@ TEST_F(ADiagnosis, OffersAnotherVersionOfOtherNumbersAndNoneWhereNoneWasFound) {
   other.model.reset();
   EXPECT_FALSE(corrected_model(campaign(), other));
   EXPECT_EQ(document(other).find("model"), nullptr);
-}
-
-TEST_F(ADiagnosis, IsReportedWithItsRoverGravityAndDates) {
-  const std::string undated = diagnosis_report(campaign(), diagnosis(), {}).markdown();
-  EXPECT_NE(undated.find("| mer-class (174 kg, 6 wheels) | 3.71 | nominal |"), std::string::npos) << undated;
-  EXPECT_NE(undated.find("| 44, from D001 to D044 | not recorded"), std::string::npos) << undated;
-  gap::DriveCampaign dated = campaign();
-  constexpr double kLanding_s = 1'344'230'220.0;  // 2012-08-06 05:17 UTC
-  for (gap::MeasuredDriveSeries& drive : dated.drives)
-    for (gap::DriveSample& sample : drive.samples) sample.time_s += kLanding_s;
-  EXPECT_NE(diagnosis_report(dated, diagnosis(), {}).markdown().find("| 2012-08-06 05:17 to 2012-08-06 05:"),
-            std::string::npos);
-}
-
-TEST_F(ADiagnosis, IsReportedWithTheSentenceOfEveryEffectAndUnits) {
-  const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
-  for (const char* words : {"| motor_temperature | the motors' torque constant, resistance",
-                            "| slip_sinkage | a slipping wheel digs itself in"})
-    EXPECT_NE(report.find(words), std::string::npos) << words;
-  EXPECT_NE(report.find("| grousers | height_m | 0.01 m |"), std::string::npos) << report;
-  gap::Diagnosis pulled = diagnosis();
-  std::swap(pulled.residual[0], pulled.residual[1]);  // a cause from outside comes first
-  pulled.residual[0].parameters.push_back({"height_m", {0.4, 0.3, 0.5}});
-  const std::string of_pull = diagnosis_report(campaign(), pulled, {}).markdown();
-  EXPECT_NE(of_pull.find("force_n = -25 (-27 to -23) N, height_m = 0.4 (0.3 to 0.5) m"), std::string::npos)
-      << of_pull;
-  EXPECT_NE(of_pull.find("it takes away 40 % of the gap that re-tuning leaves"), std::string::npos);
-  EXPECT_NE(report.find("centre of mass above where the rover's file has it, m |"), std::string::npos);
-}
-
-TEST_F(ADiagnosis, ShowsOptionsThatAreNotTheDefaultAndFoldsTheRest) {
-  const std::string usual = diagnosis_report(campaign(), diagnosis(), {}).html();
-  EXPECT_NE(usual.find("has its default"), std::string::npos);
-  EXPECT_NE(usual.find("<details>\n<summary>All of these numbers"), std::string::npos);
-  gap::DiagnosisOptions options;
-  options.fit.huber = 3.0;
-  gap::Diagnosis other = diagnosis();
-  other.options = gap::listed_options(options);
-  EXPECT_NE(diagnosis_report(campaign(), other, {}).markdown().find("| fit | huber | 3 | 4 |"),
-            std::string::npos);
-}
-
-// A drive of which next to nothing is expected is offered to nobody.
-TEST_F(ADiagnosis, OffersNoDriveThatWouldTellNextToNothing) {
-  gap::Diagnosis d = diagnosis();
-  d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 0.4}, {5.0, 0.0, 0.04, 0.0, 20.0, 0.01}};
-  EXPECT_EQ(document(d).find("next_drives")->elements.size(), 1U);
-  d.next_drives.erase(d.next_drives.begin());
-  EXPECT_TRUE(document(d).find("next_drives")->elements.empty());
-  const std::string report = diagnosis_report(campaign(), d, {}).markdown();
-  EXPECT_NE(report.find("none of those compared is expected to bring 0.05 bits"), std::string::npos)
-      << report;
 }
 
 TEST_F(ADiagnosis, IsReportedWithItsPictures) {
