@@ -28,6 +28,7 @@ th{font-weight:600;border-bottom-color:#888;white-space:nowrap}
 figure{margin:1.2rem 0;overflow-x:auto}
 figcaption{font-size:.9rem;color:#555}
 svg{display:block;max-width:100%;height:auto}
+summary{cursor:pointer}
 code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
 .banner{font-size:2.6rem;font-weight:700;line-height:1.1;margin:0 0 .8rem;padding:.5rem 1rem;border-radius:6px;color:#fff;max-width:none}
 .good{background:#1a7f37}.bad{background:#b3261e}.open{background:#8a5a00}
@@ -148,6 +149,11 @@ void ReportPage::table(std::vector<std::string> heads) {
   blocks_.push_back({.kind = Kind::kTable, .heads = std::move(heads)});
 }
 
+void ReportPage::folded_table(std::string summary, std::vector<std::string> heads) {
+  blocks_.push_back(
+      {.kind = Kind::kTable, .text = std::move(summary), .heads = std::move(heads), .folded = true});
+}
+
 void ReportPage::row(std::vector<ReportText> cells) {
   blocks_.back().rows.push_back(std::move(cells));
 }
@@ -180,6 +186,7 @@ std::string ReportPage::markdown() const {
         out += fmt::format("![{}]({}.svg)\n", words, block.chart.name);
         break;
       case Kind::kTable:
+        if (block.folded) out += fmt::format("{}:\n\n", words);
         out += fmt::format("| {} |\n|", fmt::join(block.heads, " | "));
         for (std::size_t k = 0; k < block.heads.size(); ++k) out += "---|";
         out += "\n";
@@ -223,6 +230,7 @@ std::string ReportPage::html() const {
                             xml_text(block.chart.name), named_apart(block.chart), words);
         break;
       case Kind::kTable:
+        if (block.folded) body += fmt::format("<details>\n<summary>{}</summary>\n", words);
         body += "<div class=\"wide\"><table>\n<thead><tr>";
         for (const std::string& head : block.heads)
           body += fmt::format("<th scope=\"col\">{}</th>", xml_text(head));
@@ -233,6 +241,7 @@ std::string ReportPage::html() const {
           body += "</tr>\n";
         }
         body += "</tbody></table></div>\n";
+        if (block.folded) body += "</details>\n";
         break;
     }
   }

@@ -37,6 +37,9 @@ class ReportPage {
   void paragraph(ReportText text);
   void item(ReportText text);  // of a list, with its neighbours
   void table(std::vector<std::string> heads);
+  // A table that the HTML page shows only when its summary is opened; in Markdown the summary stands above
+  // it.
+  void folded_table(std::string summary, std::vector<std::string> heads);
   void row(std::vector<ReportText> cells);  // of the table before
   // The chart's name is its file's.
   void picture(NamedChart chart, std::string caption);
@@ -49,11 +52,12 @@ class ReportPage {
   enum class Kind { kBanner, kSection, kParagraph, kItem, kTable, kPicture };
   struct Block {
     Kind kind = Kind::kParagraph;
-    ReportText text = "";  // of a section, a picture: heading and caption
+    ReportText text = "";  // of a section, a picture, a folded table: heading, caption and summary
     std::vector<std::string> heads = {};
     std::vector<std::vector<ReportText>> rows = {};
     NamedChart chart = {};
     Tone tone = Tone::kOpen;
+    bool folded = false;  // of a table
   };
 
   std::string title_;

@@ -227,7 +227,7 @@ void write_least_detectable(Writer& w, const Diagnosis& d) {
 
 void write_next_drives(Writer& w, const Diagnosis& d) {
   w.key("next_drives").begin_array();
-  for (const gap::NextDrive& drive : d.next_drives) {
+  for (const gap::NextDrive& drive : offered_drives(d)) {
     w.begin_object().significant("tilt_deg", drive.tilt_deg).significant("heading_deg", drive.heading_deg);
     w.significant("speed_m_s", drive.speed_m_s).significant("curvature_1_m", drive.curvature_1_m);
     w.significant("motor_temp_c", drive.motor_temp_c);
@@ -295,6 +295,14 @@ std::vector<gap::ComparedSet> compared_sets(const Diagnosis& diagnosis) {
     return a.probability > b.probability;
   });
   return sets;
+}
+
+std::vector<gap::NextDrive> offered_drives(const Diagnosis& diagnosis) {
+  std::vector<gap::NextDrive> offered = diagnosis.next_drives;
+  // Drives whose information is no number are not offered either.
+  std::erase_if(offered,
+                [](const gap::NextDrive& drive) { return !(drive.information_bits >= kLeastOfferedBits); });
+  return offered;
 }
 
 std::string rover_document(const CorrectedModel& model) {

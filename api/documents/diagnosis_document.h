@@ -21,4 +21,10 @@ std::string soils_document(const CorrectedModel& model);
 // 1, and "nothing" and "unknown" are among them. Where nothing was compared these two are alike.
 std::vector<gap::ComparedSet> compared_sets(const gap::Diagnosis& diagnosis);
 
+// A drive that is expected to bring fewer bits than this is not offered: twenty such drives would tell as
+// much as one question that is answered with yes or no.
+inline constexpr double kLeastOfferedBits = 0.05;
+// Those of a diagnosis' next drives that are offered: it has weaker ones too, in their order of information.
+std::vector<gap::NextDrive> offered_drives(const gap::Diagnosis& diagnosis);
+
 }  // namespace slipway::api::json

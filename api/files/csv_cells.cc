@@ -21,6 +21,10 @@ std::string_view trimmed(std::string_view cell) {
   return cell.substr(begin, cell.find_last_not_of(kSpaces) + 1 - begin);
 }
 
+std::string separator_words(char separator) {
+  return separator == '\t' ? "tabs" : in_quotes(std::string(1, separator));
+}
+
 }  // namespace
 
 std::vector<CsvLine> csv_lines(std::string_view text) {
@@ -44,6 +48,16 @@ std::vector<std::string_view> csv_cells(std::string_view line, char separator) {
     begin = end + 1;
   }
   return cells;
+}
+
+std::optional<std::string> wrong_separator(std::string_view header, char expected) {
+  if (csv_cells(header, expected).size() > 1) return std::nullopt;
+  // A space comes last: it may stand within a name or behind another separator.
+  for (const char other : {';', ',', '\t', '|', ' '})
+    if (other != expected && csv_cells(trimmed(header), other).size() > 1)
+      return fmt::format("the columns are separated by {}, must be separated by {}", separator_words(other),
+                         separator_words(expected));
+  return std::nullopt;
 }
 
 CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,

@@ -22,6 +22,11 @@ std::vector<CsvLine> csv_lines(std::string_view text);
 // What is between the separators, without the spaces around it.
 std::vector<std::string_view> csv_cells(std::string_view line, char separator = ',');
 
+// Says that a header is written with another separator than the expected one, and with which: it is then one
+// column where it is cut at the expected one, and several where it is cut at the other. Nothing where that is
+// not so.
+std::optional<std::string> wrong_separator(std::string_view header, char expected);
+
 // A header with more columns than this is refused before its names are compared with each other.
 inline constexpr std::size_t kMaxColumns = 1000;
 

@@ -10,6 +10,7 @@
 
 #include "api/documents/diagnosis_document.h"
 #include "api/files/corrected_model.h"
+#include "api/report/diagnosis_sections.h"
 #include "api/report/gap_report.h"
 #include "api/report/report_words.h"
 #include "core/angle.h"
@@ -76,23 +77,25 @@ std::string set_words(const std::vector<std::string>& names) {
 
 class Report {
  public:
-  Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts)
-      : campaign_(campaign), d_(d), charts_(charts), page_(fmt::format("Diagnosis of {}", d.campaign)) {}
+  Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts,
+         ReportPage& page)
+      : campaign_(campaign), d_(d), charts_(charts), page_(page) {}
 
-  ReportPage write() {
+  void write() {
+    write_what_was_driven(page_, campaign_);
     write_verdict();
     write_how_to_read();
     write_reference(page_, d_);
     write_explanations();
     write_ladder(page_, d_, charts_);
     write_where(page_, d_, charts_);
-    write_unknown();
-    write_parameters();
-    write_next();
+    write_unknown(page_, d_);
+    write_retuned(page_, d_);
+    add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
+    write_next_drives(page_, d_);
     write_model();
     write_notes();
-    write_options();
-    return std::move(page_);
+    write_options(page_, d_);
   }
 
  private:
@@ -103,16 +106,7 @@ class Report {
     page_.paragraph(fmt::format("{}.", d_.reason));
     if (!d_.overturned_by.empty())
       page_.paragraph(fmt::format("What would overturn it: {}.", d_.overturned_by));
-    if (!d_.effects.empty()) {
-      page_.table({"effect", "how", "probability", "parameters, with 90 % intervals"});
-      for (const gap::FoundEffect& found : d_.effects) {
-        std::vector<std::string> parameters;
-        for (const gap::FoundParameter& p : found.parameters)
-          parameters.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
-        page_.row({found.name, found.variant, probability_words(found.probability),
-                   fmt::format("{}", fmt::join(parameters, ", "))});
-      }
-    }
+    write_found_effects(page_, d_);
     page_.paragraph(fmt::format("{} drives, {} windows, {} observations, {} effects in the library.",
                                 d_.drives, d_.windows, d_.observations, d_.library.size()));
   }
@@ -172,12 +166,13 @@ class Report {
         "would "
         "uncover them: those parameters measured apart from drives (parameter_std of the campaign says so). "
         "Deviations are those by which the effect shows.");
-    page_.table({"effect", "shows now by", "would show by", "once known from"});
+    page_.table({"effect", "shows now by", "would show by", "once known from", "what it is"});
     for (const gap::MeasurementProposal& proposal : d_.measurements) {
       std::vector<std::string_view> ways;
       for (const gap::NuisanceKind kind : proposal.kinds) ways.push_back(gap::measurement_of(kind));
       page_.row({proposal.effect, fmt::format("{:.1f}", proposal.deviations_now),
-                 fmt::format("{:.1f}", proposal.deviations_then), fmt::format("{}", fmt::join(ways, "; "))});
+                 fmt::format("{:.1f}", proposal.deviations_then), fmt::format("{}", fmt::join(ways, "; ")),
+                 effect_summary(proposal.effect)});
     }
   }
 
@@ -189,71 +184,11 @@ class Report {
         "what goes with it of the gap that re-tuning leaves on drives held out of the fit. Effects are named "
         "by both: one that closes next to nothing is not named, one that closes most is not withheld because "
         "something else is left.");
-    page_.table({"effect", "probability", "closes"});
+    page_.table({"effect", "probability", "closes", "what it is"});
     for (const gap::EffectMarginal& m : d_.marginals)
       if (shown(m))
-        page_.row(
-            {m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share)});
-  }
-
-  void write_unknown() {
-    if (!d_.residual.empty()) {
-      page_.section("What nobody has named");
-      const gap::ResidualShape& first = d_.residual.front();
-      if (!first.words.empty()) {
-        std::vector<std::string> sizes;
-        for (const gap::FoundParameter& p : first.parameters)
-          sizes.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
-        page_.paragraph(fmt::format(
-            "It looks most like {} ({}): probability {}, {:.0f} % of the gap goes with it.", first.words,
-            fmt::join(sizes, ", "), probability_words(first.probability.value_or(0.0)),
-            100.0 * first.closed_share.value_or(0.0)));
-      }
-      page_.paragraph(
-          "Where what remains enters, on what it depends, and how it changes from the lowest (-1) to the "
-          "highest (1) value of the variable that was driven. It is described, not to be extrapolated.");
-      page_.table({"enters at", "depends on", "share", "shape"});
-      for (const gap::ResidualShape& shape : d_.residual) {
-        std::vector<std::string> points;
-        for (const auto& [at, value] : shape.shape)
-          points.push_back(fmt::format("{} at {:g}", number_words("{:.3g}", value.value), at));
-        page_.row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
-                   fmt::format("{}", fmt::join(points, ", "))});
-      }
-    }
-    if (d_.least_detectable.empty()) return;
-    page_.section("Smallest effects that would have been seen");
-    page_.table({"effect", "parameter", "at least"});
-    for (const gap::LeastDetectable& l : d_.least_detectable)
-      page_.row({l.effect, l.parameter, number_words("{:.3g}", l.value)});
-  }
-
-  void write_parameters() {
-    if (d_.retuned.empty()) return;
-    page_.section("Parameters re-tuned");
-    page_.paragraph(
-        "Soils' parameters and the torque constant are logarithms of a factor on the nominal value: 0.1 is "
-        "10 % more, 1.5 is 4.5 times as much. The others have units of their own. One that is many "
-        "deviations "
-        "from what was believed of it is not to be trusted without another look at it.");
-    page_.table(
-        {"parameter", "value, 90 % interval", "believed before", "deviations off", "the drives tell"});
-    for (const gap::RetunedParameter& p : d_.retuned)
-      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g}, std {:.3g}", p.believed, p.prior_std),
-                 fmt::format("{:+.1f}", (p.value.value - p.believed) / p.prior_std),
-                 p.determined ? "yes" : "no"});
-    add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
-  }
-
-  void write_next() {
-    if (d_.next_drives.empty()) return;
-    page_.section("Drives that would tell most");
-    page_.table({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
-                 "expected information, bits"});
-    for (const gap::NextDrive& n : d_.next_drives)
-      page_.row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
-                 fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
-                 fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
+        page_.row({m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share),
+                   effect_summary(m.name)});
   }
 
   void write_model() {
@@ -290,34 +225,24 @@ class Report {
                            d_.campaign_fingerprint));
   }
 
-  // What the answer depends on besides the drives, a row a step.
-  void write_options() {
-    if (d_.options.empty()) return;
-    page_.section("Options");
-    page_.paragraph(
-        "The numbers that this answer depends on besides the drives, by the step that uses them.");
-    page_.table({"step", "options"});
-    for (std::size_t i = 0; i < d_.options.size();) {
-      const std::string_view step = d_.options[i].step;
-      std::string words;
-      for (; i < d_.options.size() && d_.options[i].step == step; ++i)
-        words += fmt::format("{}{} {:.6g}", words.empty() ? "" : ", ", d_.options[i].name,
-                             fmt::join(d_.options[i].values, " / "));
-      page_.row({std::string(step), words});
-    }
-  }
-
   const gap::DriveCampaign& campaign_;
   const Diagnosis& d_;
   const std::vector<NamedChart>& charts_;
-  ReportPage page_;
+  ReportPage& page_;
 };
 
 }  // namespace
 
 ReportPage diagnosis_report(const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
                             const std::vector<NamedChart>& charts) {
-  return Report(campaign, diagnosis, charts).write();
+  ReportPage page(fmt::format("Diagnosis of {}", diagnosis.campaign));
+  write_diagnosis(page, campaign, diagnosis, charts);
+  return page;
+}
+
+void write_diagnosis(ReportPage& page, const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
+                     const std::vector<NamedChart>& charts) {
+  Report(campaign, diagnosis, charts, page).write();
 }
 
 }  // namespace slipway::api

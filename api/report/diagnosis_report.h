@@ -13,4 +13,8 @@ namespace slipway::api {
 ReportPage diagnosis_report(const gap::DriveCampaign& campaign, const gap::Diagnosis& diagnosis,
                             const std::vector<NamedChart>& charts);
 
+// The same behind what the page has already: its sections, and before them what was driven and the verdict.
+void write_diagnosis(ReportPage& page, const gap::DriveCampaign& campaign, const gap::Diagnosis& diagnosis,
+                     const std::vector<NamedChart>& charts);
+
 }  // namespace slipway::api

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace slipway::gap {
@@ -99,11 +100,32 @@ double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::Matrix
   start_ = std::max_element(of_start.begin(), of_start.end(), [](const auto& a, const auto& b) {
              return a.second < b.second;
            })->first;
+  start_shares_.assign(drives, 0.0);
+  const double started = log_of_sum({all.begin() + 1, all.end()});
+  for (const auto& [c, log] : of_start) start_shares_[c] = std::exp(log - started);
   std::vector<double> shares;
   for (const std::vector<double>& logs : of_kind) shares.push_back(log_of_sum(logs));
   const double sum = log_of_sum(shares);
   for (std::size_t j = 0; j < shares.size(); ++j) kind_shares_[j] = std::exp(shares[j] - sum);
   return log_evidence_;
+}
+
+DriveRange fewest_with(std::span<const double> shares, double part) {
+  if (shares.empty()) return {};
+  const auto most = static_cast<std::size_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
+  DriveRange best{0, shares.size() - 1, std::accumulate(shares.begin(), shares.end(), 0.0)};
+  for (std::size_t first = 0; first <= most; ++first) {
+    double sum = std::accumulate(shares.begin() + static_cast<std::ptrdiff_t>(first),
+                                 shares.begin() + static_cast<std::ptrdiff_t>(most), 0.0);
+    for (std::size_t last = most; last < shares.size(); ++last) {
+      sum += shares[last];
+      if (sum < part) continue;
+      const std::size_t length = last - first, least = best.last - best.first;
+      if (length < least || (length == least && sum > best.share)) best = {first, last, sum};
+      break;
+    }
+  }
+  return best;
 }
 
 }  // namespace slipway::gap

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace slipway::gap {
@@ -49,6 +50,9 @@ class ChangeDetector {
   // with what has not changed left out.
   std::size_t most_probable_start() const { return start_; }
   const std::vector<double>& kind_shares() const { return kind_shares_; }
+  // What each drive so far has of M as the first that differs; they add up to 1 as the kinds' shares do. That
+  // of a drive which is no longer followed is 0.
+  const std::vector<double>& start_shares() const { return start_shares_; }
 
  private:
   struct Drive {
@@ -68,8 +72,17 @@ class ChangeDetector {
   double log_evidence_ = 0.0;
   int above_ = 0;  // drives running, up to the last, at which the evidence stands at 1 / alpha
   std::size_t start_ = 0;
-  std::vector<double> kind_shares_;
+  std::vector<double> kind_shares_, start_shares_;
 };
+
+// Drives running, by their numbers, and what they have of the evidence together.
+struct DriveRange {
+  std::size_t first = 0, last = 0;
+  double share = 0.0;
+};
+// The fewest drives running that hold the one with most and have `part` of all shares at least; where several
+// are as few, those with most. All of them where rounding leaves the sum below `part`.
+DriveRange fewest_with(std::span<const double> shares, double part);
 
 // w_c of the c-th drive, from 1.
 double start_weight(std::size_t c);

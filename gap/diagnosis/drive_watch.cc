@@ -126,6 +126,8 @@ Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
     if (!watch.alarm && detector.alarmed()) {
       watch.alarm = d;
       watch.since = detector.most_probable_start();
+      watch.onset_shares = detector.start_shares();
+      watch.onset = fewest_with(watch.onset_shares, kOnsetPart);
       watch.causes = causes_of(changes, detector.kind_shares());
     }
     watch.drives.push_back(

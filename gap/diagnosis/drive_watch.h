@@ -33,15 +33,24 @@ struct ChangeShare {
   double share = 0.0;
 };
 
+// Of the evidence of a change, what the drives together have that are told as the range of its onset.
+inline constexpr double kOnsetPart = 0.9;
+
 struct DriveWatch {
   std::string campaign, campaign_fingerprint;
   std::string reference, reference_fingerprint;  // the campaign's own name where its first drives were learnt
   std::size_t learnt_drives = 0;
   double alpha = 0.0;
   std::vector<WatchedDrive> drives;
-  std::optional<std::size_t> alarm;    // index into `drives`
-  std::size_t since = 0;               // with an alarm: the most probable first drive that differs
-  std::vector<ChangeShare> causes;     // most probable first
+  std::optional<std::size_t> alarm;  // index into `drives`
+  std::size_t since = 0;             // with an alarm: the most probable first drive that differs
+  // With an alarm, of the evidence at the alarm: what each drive up to then has of it as the first that
+  // differs, and the fewest drives running that have kOnsetPart of it.
+  std::vector<double> onset_shares;
+  DriveRange onset;
+  // Most probable first: a first pointer, by derivatives at the moment of the alarm. Where there is a
+  // diagnosis, that is the answer.
+  std::vector<ChangeShare> causes;
   std::optional<Diagnosis> diagnosis;  // of the drives since then
   // The campaign that was diagnosed, for documents.
   std::optional<DriveCampaign> diagnosed;

@@ -1,10 +1,35 @@
 #include "server/cli/catalogue_command.h"
 
+#include "api/json/faults.h"
+#include "api/json/lookup.h"
+#include "api/json/parse.h"
+#include "api/json/writer.h"
 #include "server/cli/catalogue_printing.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
+namespace {
+
+// The same catalogue with the effect of this name alone. Errors: invalid_request where it has no such effect.
+Result<std::string> with_one_effect(std::string_view document, const std::string& name) {
+  const auto parsed = api::json::parse(document, {.bytes = document.size(), .values = document.size()});
+  if (!parsed) return fail(parsed.error());
+  std::vector<std::string> known;
+  for (const api::json::JsonValue& effect : api::json::at(*parsed, "effects").elements) {
+    known.push_back(api::json::text(effect, "name"));
+    if (known.back() != name) continue;
+    api::json::Writer w;
+    w.begin_object().key("effects").begin_array();
+    api::json::write_value(w, effect);
+    w.end_array().end_object();
+    return w.take();
+  }
+  const std::string message = api::unknown_name("effect", name, known);
+  return fail(ErrorCode::kInvalidRequest, message, {{"/effect", message}});
+}
+
+}  // namespace
 
 int rovers(const AskOptions& options) {
   return print_catalogue(options, "rovers", &rover_table);
@@ -14,8 +39,13 @@ int soils(const AskOptions& options) {
   return print_catalogue(options, "soils", &soil_table);
 }
 
-int effects(const AskOptions& options) {
-  return print_catalogue(options, "effects", &effect_table);
+int effects(const AskOptions& options, const std::string& name) {
+  if (name.empty()) return print_catalogue(options, "effects", &effect_table);
+  const auto service = inquiry(options);
+  if (!service) return refuse(service.error());
+  const auto document = (*service)->catalogue("effects");
+  if (!document) return refuse(document.error());
+  return print_document(options, with_one_effect(*document, name), &effect_field_table);
 }
 
 int health(const AskOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "server/cli/ask_options.h"
 
@@ -14,7 +15,8 @@ namespace slipway::server {
 // answer, 1 none, 2 a question that can't be asked.
 int rovers(const AskOptions& options);
 int soils(const AskOptions& options);
-int effects(const AskOptions& options);
+// `name`: the effect whose parameters are explained; empty for the list of all effects.
+int effects(const AskOptions& options, const std::string& name);
 // Asks a running service, for which it needs its address.
 int health(const AskOptions& options);
 

@@ -12,5 +12,8 @@ namespace slipway::server {
 // exit status.
 int print_catalogue(const AskOptions& ask, std::string_view kind,
                     Result<std::string> (*table)(std::string_view));
+// Prints a document that was asked for already, or its table. The exit status.
+int print_document(const AskOptions& ask, const Result<std::string>& document,
+                   Result<std::string> (*table)(std::string_view));
 
 }  // namespace slipway::server

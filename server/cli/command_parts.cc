@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "api/files/whole_file.h"
@@ -15,6 +17,7 @@
 namespace slipway::server {
 namespace {
 
+namespace fs = std::filesystem;
 using api::json::Writer;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
@@ -37,6 +40,11 @@ void write_number_or_text(Writer& w, const std::string& value) {
   } else {
     w.text(value);
   }
+}
+
+bool is_report_page(const fs::path& path) {
+  std::error_code error;
+  return path.extension() == ".html" && !fs::is_directory(path, error);
 }
 
 tl::unexpected<Error> bad(const std::string& flag, const std::string& message) {
@@ -83,6 +91,25 @@ int deliver(const std::vector<OutputFile>& files, const std::string& text) {
   for (const OutputFile& file : files) status = std::max(status, save(file));
   std::cout << text << std::flush;
   return status;
+}
+
+Result<void> make_room_for_report(const std::string& path) {
+  if (!is_report_page(path)) return api::make_folder(path);
+  const fs::path beside = fs::path(path).parent_path();
+  return beside.empty() ? Result<void>() : api::make_folder(beside);
+}
+
+std::vector<OutputFile> report_output(const std::string& path, const api::ReportPage& report,
+                                      const std::vector<api::NamedChart>& charts,
+                                      std::string_view document_name, const std::string& document) {
+  if (is_report_page(path)) return {{path, report.html()}};
+  const fs::path folder(path);
+  std::vector<OutputFile> files{{(folder / document_name).string(), document},
+                                {(folder / "report.md").string(), report.markdown()},
+                                {(folder / "report.html").string(), report.html()}};
+  for (const api::NamedChart& chart : charts)
+    files.push_back({(folder / (chart.name + ".svg")).string(), chart.svg});
+  return files;
 }
 
 bool output_has_gone_out() {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "api/chart/chart.h"
+#include "api/chart/report_page.h"
 #include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "core/progress.h"
@@ -43,6 +45,14 @@ int save(const OutputFile& file);
 // Writes the files, then prints the text: who closes the pipe or fills the disk loses no file. The exit
 // status.
 int deliver(const std::vector<OutputFile>& files, const std::string& text);
+// Makes the folder that --report names, or that in which its page is to lie: it names one HTML page where it
+// ends in ".html" and is no folder. Errors: unwritable_file.
+Result<void> make_room_for_report(const std::string& path);
+// What --report asks for: the page alone, or report.html, report.md, every picture and the document under its
+// name in the folder.
+std::vector<OutputFile> report_output(const std::string& path, const api::ReportPage& report,
+                                      const std::vector<api::NamedChart>& charts,
+                                      std::string_view document_name, const std::string& document);
 // Whether all that was printed has gone out. Otherwise says so on standard error.
 bool output_has_gone_out();
 

@@ -20,6 +20,7 @@
 #include "api/files/whole_file.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
+#include "api/report/report_words.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/command_parts.h"
@@ -29,19 +30,14 @@
 namespace slipway::server {
 namespace {
 
+using api::interval_words;
 using gap::Diagnosis;
-using gap::Interval;
 
 constexpr double kMinMarginal = 0.05;
 constexpr std::size_t kMaxCandidates = 6, kMaxChannels = 8, kMaxRegimes = 3, kMaxLeast = 6;
 
 std::string names_words(const std::vector<std::string>& names) {
   return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
-}
-
-std::string interval_words(const Interval& x, double unit = 1.0) {
-  if (x.low == x.high) return fmt::format("{:.3g}", unit * x.value);
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", unit * x.value, unit * x.low, unit * x.high);
 }
 
 std::string effects_words(const Diagnosis& d) {
@@ -78,12 +74,13 @@ std::string marginals_words(const Diagnosis& d) {
 }
 
 std::string residual_words(const Diagnosis& d) {
-  std::string out;
+  if (d.residual.empty()) return {};
+  std::string out =
+      "unexplained (shares of this description, of all drives and in squared deviations of the noise):\n";
   for (const gap::ResidualShape& shape : d.residual)
-    out += shape.words.empty()
-               ? fmt::format("unexplained: {:.0f} % at {}, by {}\n", 100.0 * shape.share, shape.entry,
-                             shape.variable)
-               : fmt::format("unexplained: {:.0f} % is {}\n", 100.0 * shape.share, shape.words);
+    out +=
+        fmt::format("  {:.0f} %: {}\n", 100.0 * shape.share,
+                    shape.words.empty() ? fmt::format("{} by {}", shape.entry, shape.variable) : shape.words);
   return out;
 }
 
@@ -140,15 +137,29 @@ std::string channels_of_effects_words(const Diagnosis& d) {
 }
 
 std::string reference_words(const gap::ReferenceSummary& reference) {
-  std::vector<std::string> channels;
+  TextTable table({"channel", "learnt, rms", "left open, rms", "unit"});
   for (const gap::ReferenceSummary::LearntChannel& c : reference.channels) {
     const double unit = gap::boundary_unit(c.channel);
-    channels.push_back(fmt::format("{} {:.2g} (open {:.2g}) {}", gap::name_of(c.channel), unit * c.learnt,
-                                   unit * c.open, gap::unit_of(c.channel)));
+    table.add({std::string(gap::name_of(c.channel)), fmt::format("{:.2g}", unit * c.learnt),
+               fmt::format("{:.2g}", unit * c.open), std::string(gap::unit_of(c.channel))});
   }
   return fmt::format(
-      "what has changed since {} drives of {}, from which the model's difference was learnt (rms): {}\n",
-      reference.drives, reference.campaign, fmt::join(channels, ", "));
+      "the question is what has changed since the {} drives of {}; they taught this difference between model "
+      "and drives:\n{}",
+      reference.drives, reference.campaign, table.print());
+}
+
+std::string next_drives_words(const Diagnosis& d) {
+  if (d.verdict == gap::Verdict::kInsufficient) return {};
+  const std::vector<gap::NextDrive> offered = api::json::offered_drives(d);
+  if (offered.empty()) return "\n" + api::no_drive_offered_words() + "\n";
+  std::string out = "\ndrives that would say most:\n";
+  for (const gap::NextDrive& n : offered)
+    out += fmt::format(
+        "  tilt {:.0f} deg, heading {:.0f} deg, {:.3g} m/s, curvature {:.2g} 1/m, motors at {:.0f} C: {:.2f} "
+        "bits\n",
+        n.tilt_deg, n.heading_deg, n.speed_m_s, n.curvature_1_m, n.motor_temp_c, n.information_bits);
+  return out;
 }
 
 std::string answer_words(const Diagnosis& d) {
@@ -176,28 +187,16 @@ std::string answer_words(const Diagnosis& d) {
   for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMaxLeast); ++i)
     out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,
                        d.least_detectable[i].value);
-  if (!d.next_drives.empty()) out += "\ndrives that would say most:\n";
-  for (const gap::NextDrive& n : d.next_drives)
-    out += fmt::format(
-        "  tilt {:.0f} deg, heading {:.0f} deg, {:.3g} m/s, curvature {:.2g} 1/m, motors at {:.0f} C: {:.2f} "
-        "bits\n",
-        n.tilt_deg, n.heading_deg, n.speed_m_s, n.curvature_1_m, n.motor_temp_c, n.information_bits);
+  out += next_drives_words(d);
   for (const std::string& note : d.notes) out += "note: " + note + "\n";
   return out;
 }
 
-std::vector<OutputFile> report_files(const std::string& folder, const gap::DriveCampaign& campaign,
+std::vector<OutputFile> report_files(const std::string& path, const gap::DriveCampaign& campaign,
                                      const Diagnosis& d) {
-  const std::filesystem::path path(folder);
   const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
-  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
-  std::vector<OutputFile> files{
-      {(path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d)},
-      {(path / "report.md").string(), report.markdown()},
-      {(path / "report.html").string(), report.html()}};
-  for (const api::NamedChart& chart : charts)
-    files.push_back({(path / (chart.name + ".svg")).string(), chart.svg});
-  return files;
+  return report_output(path, api::diagnosis_report(campaign, d, charts), charts, "diagnosis.json",
+                       api::json::diagnosis_document(campaign, d));
 }
 
 // The files of the corrected model; none where none is offered.
@@ -240,7 +239,7 @@ int diagnose(const DiagnoseCommand& options) {
   if (!reference) return refuse_unreadable(reference.error());
   // What can't be written is known before the work.
   if (!options.report.empty())
-    if (const auto made = api::make_folder(options.report); !made) return refuse(made.error());
+    if (const auto made = make_room_for_report(options.report); !made) return refuse(made.error());
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);
@@ -261,7 +260,7 @@ int diagnose(const DiagnoseCommand& options) {
     if (folder) files.insert(files.end(), into_it.begin(), into_it.end());
   };
   if (!options.report.empty())
-    add(api::make_folder(options.report), report_files(options.report, *campaign, d));
+    add(make_room_for_report(options.report), report_files(options.report, *campaign, d));
   if (!options.model.empty()) {
     const std::vector<OutputFile> model = model_files(options.model, *campaign, d);
     add(clear_model(options.model, !model.empty()), model);

@@ -38,8 +38,10 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
       "has changed since");
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   add_search(*command, *options);
-  command->add_option("--report", options->report,
-                      "folder for report.md, its pictures and diagnosis.json; made if need be");
+  command->add_option(
+      "--report", options->report,
+      "folder for report.html, report.md, its pictures and diagnosis.json, made if need be; or "
+      "a file that ends in .html for the page alone");
   command->add_option(
       "--model", options->model,
       "folder for rovers/*.json and soils/*.json of the corrected model, where one is offered: put into a "
@@ -78,9 +80,12 @@ void add_watch_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   command->add_flag("!--no-diagnosis", options->diagnose, "after an alarm, do not diagnose what has changed");
   add_search(*command, *options);
+  command->add_option("--report", options->report,
+                      "folder for report.html, report.md, its pictures and watch.json, made if need be; or a "
+                      "file that ends in .html for the page alone");
   command->footer(
       "Example: is the rover still what it was in its first twelve drives?\n"
-      "  slipway watch data/gap-practice/p01\n"
+      "  slipway watch data/gap-practice/p01 --report p01.html\n"
       "Exit status: 0 nothing has changed, 6 something has, 1 no answer, 2 input that can't be read.");
   command->callback([options, &run] { run = [options] { return watch(*options); }; });
 }

@@ -19,7 +19,8 @@ struct WatchCommand {
   int learn = 12;                    // of the campaign's drives where there is no reference
   double alpha = 0.01;
   std::uint64_t seed = 1;
-  int threads = 0;  // 0: as many as the machine has
+  int threads = 0;     // 0: as many as the machine has
+  std::string report;  // folder, or an HTML file; empty: none
   bool diagnose = true, json = false;
 };
 

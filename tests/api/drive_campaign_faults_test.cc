@@ -108,6 +108,21 @@ TEST_F(DriveCampaignFolder, FaultsOfADrivesFileHaveLineAndColumn) {
   expect_csv_fault("t_s\n0\n\xFF\xFE\n", "/3/t_s", "\"??\" is no finite number");
 }
 
+// One fault says which separator was found and which is expected, however many rows and columns there are.
+TEST_F(DriveCampaignFolder, AnotherSeparatorIsOneFaultOfTheFile) {
+  for (const auto& [separator, words] :
+       {std::pair<char, std::string>{';', "\";\""}, {'\t', "tabs"}, {' ', "\" \""}}) {
+    std::string bytes = kHeader + kRows;
+    std::replace(bytes.begin(), bytes.end(), ',', separator);
+    expect_csv_fault(
+        bytes, "/1",
+        "a.csv, line 1, column 1: the columns are separated by " + words + ", must be separated by \",\"");
+    const auto campaign = load();
+    ASSERT_FALSE(campaign);
+    EXPECT_EQ(campaign.error().faults.size(), 1U) << words;
+  }
+}
+
 TEST_F(DriveCampaignFolder, WhatOthersWriteIsRead) {
   // A byte order mark, Windows lines, spaces, signs, blank lines, and columns of no wheel.
   write("a.csv",

@@ -54,5 +54,19 @@ TEST(ReportPage, TheHtmlOfAHostileNameIsText) {
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
 }
 
+// HTML shows it when it is opened; Markdown has no folds that all readers know, and shows it.
+TEST(ReportPage, AFoldedTableIsWithinItsSummary) {
+  ReportPage page("Page");
+  page.folded_table("All <options>", {"name", "value"});
+  page.row({"one", "1"});
+  const std::string html = page.html();
+  const std::size_t summary = html.find("<details>\n<summary>All &lt;options&gt;</summary>");
+  ASSERT_NE(summary, std::string::npos) << html;
+  EXPECT_LT(html.find("<td>one</td>", summary), html.find("</details>", summary));
+  EXPECT_NE(page.markdown().find("All &lt;options>:\n\n| name | value |\n|---|---|\n| one | 1 |\n"),
+            std::string::npos)
+      << page.markdown();
+}
+
 }  // namespace
 }  // namespace slipway::api

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <numeric>
 
 #include "core/random.h"
 #include "tests/gap/linear_model.h"
@@ -111,6 +112,30 @@ TEST(ChangeDetector, FindsAChangeSoonAndSaysSinceWhenAndWhich) {
   EXPECT_LE(at, 26);
   EXPECT_NEAR(static_cast<double>(detector.most_probable_start()), 20.0, 1.0);
   EXPECT_GT(detector.kind_shares()[0], 0.8);
+  // Every drive's share, and the range of the onset around the true one.
+  const std::vector<double>& shares = detector.start_shares();
+  ASSERT_EQ(shares.size(), static_cast<std::size_t>(at));
+  EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-9);
+  const DriveRange onset = fewest_with(shares, 0.9);
+  EXPECT_GE(onset.share, 0.9);
+  EXPECT_LE(onset.first, 20U);
+  EXPECT_GE(onset.last, 20U);
+  EXPECT_LE(onset.last - onset.first, 4U);
+}
+
+// The onset is told as one drive only where one drive has the evidence.
+TEST(FewestWith, IsTheShortestRangeThatHoldsThePartAndTheMostProbableDrive) {
+  const auto expect = [](const std::vector<double>& shares, std::size_t first, std::size_t last) {
+    const DriveRange range = fewest_with(shares, 0.9);
+    EXPECT_EQ(range.first, first);
+    EXPECT_EQ(range.last, last);
+  };
+  expect({0.0, 0.95, 0.05}, 1, 1);
+  expect({0.04, 0.1, 0.52, 0.3, 0.04}, 1, 3);
+  expect({0.3, 0.3, 0.4}, 0, 2);
+  expect({0.05, 0.4, 0.0, 0.0, 0.55}, 1, 4);
+  expect({0.04, 0.47, 0.44, 0.05}, 1, 2);
+  EXPECT_EQ(fewest_with(std::vector<double>{}, 0.9).share, 0.0);
 }
 
 // One odd drive is no change: the alarm waits until the evidence stands at as many drives running as asked

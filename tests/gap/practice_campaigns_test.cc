@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/catalogue.h"
@@ -95,6 +97,10 @@ TEST(PracticeCampaigns, APullThatNoEffectKnowsIsUnknown) {
   EXPECT_TRUE(diagnosis.effects.empty()) << "a small bulldozing would be the pull's shadow";
   ASSERT_FALSE(diagnosis.residual.empty());
   EXPECT_EQ(diagnosis.residual.front().entry, "tangential_force");
+  std::set<std::pair<std::string, std::string>> listed;
+  for (const ResidualShape& shape : diagnosis.residual)
+    EXPECT_TRUE(listed.emplace(shape.entry, shape.variable).second)
+        << shape.entry << " by " << shape.variable << " is listed twice";
   EXPECT_EQ(diagnosis.residual.front().variable, "direction");
   EXPECT_EQ(diagnosis.residual.front().form, "force_on_body");
   EXPECT_NE(diagnosis.residual.front().words.find("against the travel, at the body"), std::string::npos)

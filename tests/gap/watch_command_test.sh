@@ -12,30 +12,47 @@ trap 'rm -rf "$folder"' EXIT
 "$sealed_campaigns" "$folder/set" --set each --only gearbox_friction --fidelity L2c --size 1 --seed 11 \
   --since 10 --references yes
 status=0
-"$slipway" watch "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/watch.json" || status=$?
+"$slipway" watch "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json \
+  --report "$folder/report" >"$folder/watch.json" || status=$?
 [ "$status" = 6 ]
 "$sealed_campaigns" "$folder/healthy" --set each --only com_offset --fidelity L2 --size 1 --seed 100 --since 999 --references yes
-"$slipway" watch "$folder/healthy/s01" --reference "$folder/healthy/references/s01" --data "$data" --no-diagnosis >"$folder/words"
+"$slipway" watch "$folder/healthy/s01" --reference "$folder/healthy/references/s01" --data "$data" --no-diagnosis \
+  --report "$folder/healthy.html" >"$folder/words"
 grep -q 'nothing has changed' "$folder/words"
+grep -q '<figure id="evidence">' "$folder/healthy.html"
 # Learnt on slopes up to 5 deg alone, by a simulator with another physics: steep ones are no change.
 "$sealed_campaigns" "$folder/gentle" --set each --only wheel_radius --fidelity L3 --size 1 --seed 2302 --since 9 --references yes
 "$slipway" watch "$folder/gentle/references/s01" --learn 20 --data "$data" --no-diagnosis >"$folder/words"
 grep -q 'nothing has changed' "$folder/words"
-"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/since.json"
+"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --report "$folder/since" >"$folder/since.txt"
+# What the reference taught is a table of short lines.
+grep -q '^channel  *learnt, rms  *left open, rms  *unit$' "$folder/since.txt"
+if sed -n '/what has changed since/,/^would overturn/p' "$folder/since.txt" | grep '^.\{150\}'; then exit 1; fi
 python3 - "$folder" <<'CHECK'
-import json, pathlib, sys
+import json, pathlib, sys, xml.dom.minidom
 folder = pathlib.Path(sys.argv[1])
 watch = json.loads((folder / "watch.json").read_text())
 assert watch["format"] == "watch/1" and watch["changed"] is True
 ids = [drive["id"] for drive in watch["drives"]]
 assert 11 <= ids.index(watch["alarm"]["drive"]) <= 14, watch["alarm"]
 assert abs(ids.index(watch["alarm"]["since"]) - 10) <= 1, watch["alarm"]
+onset = watch["alarm"]["onset"]
+assert ids.index(onset["first"]) <= ids.index(watch["alarm"]["since"]) <= ids.index(onset["last"]), onset
+assert ids.index(onset["first"]) <= 10 <= ids.index(onset["last"]) and 0.9 <= onset["share"] <= 1, onset
+shares = [drive["onset_share"] for drive in watch["drives"] if "onset_share" in drive]
+assert abs(sum(shares) - 1) < 1e-3 and len(shares) == ids.index(watch["alarm"]["drive"]) + 1, shares
+assert watch["causes_are"] == "first_pointer" and watch["answer"] == "diagnosis"
+page = (folder / "report" / "report.html").read_text()
+for words in ('<figure id="evidence">', '<figure id="ladder">', "A first pointer, which is no diagnosis", "the diagnosis counts", "The diagnosis of the drives from"):
+    assert words in page, words
+xml.dom.minidom.parseString(page.replace("<!DOCTYPE html>", ""))
+assert json.loads((folder / "report" / "watch.json").read_text()) == watch
 assert abs(sum(cause["share"] for cause in watch["causes"]) - 1) < 1e-3
 diagnosis = watch["diagnosis"]
 assert diagnosis["format"] == "diagnosis/1" and diagnosis["reference"]["drives"] > 30
 named = sum(c["probability"] for c in diagnosis["candidates"] if "gearbox_friction" in c["effects"])
 assert named > 0.3, diagnosis["candidates"]
-since = json.loads((folder / "since.json").read_text())
+since = json.loads((folder / "since" / "diagnosis.json").read_text())
 assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
 CHECK
 # Drives of another rover are no reference.

@@ -33,6 +33,17 @@ for question in soils rovers effects "terrain" "data check" "campaign list" "val
   [ "$status" = 1 ] || { echo "exit status $status of $question with a full standard output"; exit 1; }
 done
 
+# The parameters of an effect are explained in words: unit, default, range and meaning.
+expect 0 "$slipway" effects
+holds 'slipway effects NAME explains' "$folder/out"
+expect 0 "$slipway" effects grousers
+holds '^height_m  *m  *0.01  *0  *0.05  *0  *height of a grouser' "$folder/out"
+[ "$(grep -c 'described by' "$folder/out")" = 1 ] || { echo "more than one effect is explained"; exit 1; }
+expect 0 "$slipway" effects grousers --json
+holds '^{"effects":\[{"name":"grousers"' "$folder/out"
+expect 2 "$slipway" effects grouser
+holds '/effect: unknown effect "grouser"; did you mean "grousers"' "$folder/err"
+
 # A file has its old content until the new one is whole: here no file may grow beyond nothing.
 echo "what was there" >"$folder/kept.csv"
 (ulimit -f 0; $swept --csv "$folder/kept.csv" >/dev/null 2>&1) && { echo "a file grew past its limit"; exit 1; }

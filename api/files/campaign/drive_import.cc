@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -60,60 +59,62 @@ class Importer {
   Importer(ImportMapping mapping, fs::path folder)
       : mapping_(std::move(mapping)), folder_(std::move(folder)) {}
 
-  Result<ImportedCampaign> run() {
+  ImportedCampaign run() {
     made_.name = mapping_.name;
+    made_.mapping_file = mapping_.file;
+    made_.known_file = mapping_.known;
     made_.from_ned = mapping_.axes == ImportAxes::kNed;
+    faults_ = mapping_.faults;
     for (const ImportColumn& column : mapping_.columns) {
-      asked_.insert(column.from);
-      made_.columns.push_back({column.to, column.from, column.unit, column.sign * column.factor,
+      if (!column.from.empty()) asked_.insert(column.from);
+      if (column.at_fault) continue;
+      made_.columns.push_back({column.key, column.to, column.from, column.unit, column.sign * column.factor,
                                column.offset, column.delay_s, std::numeric_limits<double>::infinity(),
                                -std::numeric_limits<double>::infinity(), 0, 0});
     }
-    asked_.insert(mapping_.clock_column);
-    for (const ImportDrive& drive : mapping_.drives) read_drive(drive);
-    const JsonValue known = read_known();
-    if (!faults_.empty()) {
-      const std::string summary = summary_of(faults_);
-      return fail(ErrorCode::kUnreadableData, summary, std::move(faults_));
-    }
-    made_.files.insert(made_.files.begin(), {"campaign.json", campaign_document(known)});
+    if (!mapping_.clock_column.empty()) asked_.insert(mapping_.clock_column);
+    // Where the separator is unknown, what a log holds is as well.
+    if (!mapping_.separator_at_fault)
+      for (const ImportDrive& drive : mapping_.drives) read_drive(drive);
+    if (!mapping_.known.empty())
+      if (const auto known = read_known())
+        made_.files.insert(made_.files.begin(), {"campaign.json", campaign_document(*known)});
     made_.passed_over.assign(passed_over_.begin(), passed_over_.end());
+    made_.faults = std::move(faults_);
     return std::move(made_);
   }
 
  private:
-  JsonValue read_known() {
+  // Nothing where it can't be read, or is no document.
+  std::optional<JsonValue> read_known() {
     const auto bytes = bytes_of(folder_ / mapping_.known);
     if (!bytes) {
-      faults_.push_back(
-          {"known", fmt::format("{} can't be read beside the mapping", in_quotes(mapping_.known))});
-      return {};
+      faults_.push_back({mapping_.file + "#/known",
+                         fmt::format("{} can't be read beside the mapping", in_quotes(mapping_.known))});
+      return std::nullopt;
     }
+    made_.known_document = *bytes;
     auto known = json::parse(*bytes);
     if (!known) {
       for (Fault& fault : moved_under(mapping_.known + "#", known.error().faults))
         faults_.push_back(std::move(fault));
       if (known.error().faults.empty())
         faults_.push_back({mapping_.known + "#", mapping_.known + ": " + known.error().detail});
-      return {};
+      return std::nullopt;
     }
+    // Where there are none, the campaign's own reader says so.
     const JsonValue* const terrains = known->find("terrains");
-    if (terrains == nullptr || !terrains->is(JsonValue::Kind::kObject))
-      faults_.push_back({mapping_.known + "#/terrains", mapping_.known + " names no terrains"});
-    else
+    if (terrains != nullptr && terrains->is(JsonValue::Kind::kObject))
       for (const JsonValue& terrain : terrains->elements) copy_rasters(terrain);
     return std::move(*known);
   }
 
+  // What is no file beside the mapping is none in the campaign, whose own reader then says so.
   void copy_rasters(const JsonValue& terrain) {
     const auto copy = [&](const JsonValue* name) {
-      if (name == nullptr || !name->is(JsonValue::Kind::kString)) return;
-      const fs::path path = folder_ / name->text;
       std::error_code error;
-      if (!fs::is_regular_file(path, error))
-        faults_.push_back(
-            {mapping_.known + "#/terrains", in_quotes(name->text) + " is no file beside the mapping"});
-      else
+      if (name != nullptr && name->is(JsonValue::Kind::kString) &&
+          fs::is_regular_file(folder_ / name->text, error))
         made_.copied.push_back(name->text);
     };
     copy(terrain.find("dem"));
@@ -121,6 +122,7 @@ class Importer {
   }
 
   void read_drive(const ImportDrive& drive) {
+    if (drive.file.empty()) return;  // which is a fault of the mapping
     const auto bytes = bytes_of(folder_ / drive.file);
     if (!bytes) {
       faults_.push_back(
@@ -140,11 +142,14 @@ class Importer {
           {drive.file + "#/1", fmt::format("{}: {}", drive.file, unknown_name("column", name, table.names))});
       return std::nullopt;
     };
-    const auto clock = place_of(mapping_.clock_column);
-    std::vector<std::size_t> places;
-    for (const ImportColumn& column : mapping_.columns)
-      if (const auto place = place_of(column.from)) places.push_back(*place);
-    if (faults_.size() > before) return;
+    const auto clock = mapping_.clock_column.empty() ? std::nullopt : place_of(mapping_.clock_column);
+    std::vector<std::size_t> places;  // of the columns without fault
+    for (const ImportColumn& column : mapping_.columns) {
+      if (column.from.empty()) continue;
+      const auto place = place_of(column.from);
+      if (place && !column.at_fault) places.push_back(*place);
+    }
+    if (faults_.size() > before || !clock || mapping_.clock_at_fault) return;
     convert(drive, table, *clock, places);
   }
 
@@ -171,12 +176,13 @@ class Importer {
   void convert(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
                const std::vector<std::size_t>& places) {
     std::vector<double> time_s;
-    if (!read_clock(drive, table, clock, time_s)) return;
+    if (!read_clock(drive, table, clock, time_s) || drive.at_fault) return;
     ImportedDrive made;
+    made.index = drive.index;
     made.id = drive.id;
     made.file = drive.id + ".csv";
     made.log = drive.file;
-    made.values.resize(mapping_.columns.size());
+    made.values.resize(made_.columns.size());
     std::vector<std::vector<double>> recorded(places.size());
     for (std::size_t c = 0; c < places.size(); ++c)
       for (const std::vector<double>& row : table.rows) recorded[c].push_back(row[places[c]]);
@@ -207,8 +213,8 @@ class Importer {
   }
 
   std::vector<double>* values_of(ImportedDrive& drive, std::string_view column) const {
-    for (std::size_t c = 0; c < mapping_.columns.size(); ++c)
-      if (mapping_.columns[c].to == column) return &drive.values[c];
+    for (std::size_t c = 0; c < made_.columns.size(); ++c)
+      if (made_.columns[c].to == column) return &drive.values[c];
     return nullptr;
   }
 
@@ -260,7 +266,7 @@ class Importer {
 
   std::string drive_text(const ImportedDrive& drive) const {
     std::string text = "t_s";
-    for (const ImportColumn& column : mapping_.columns) text += "," + column.to;
+    for (const ImportedColumn& column : made_.columns) text += "," + column.to;
     text += '\n';
     for (std::size_t i = 0; i < drive.rows; ++i) {
       text += fmt::format("{:.15g}", drive.time_s[i]);  // seconds since 1970 to the microsecond
@@ -269,6 +275,11 @@ class Importer {
       text += '\n';
     }
     return text;
+  }
+
+  const ImportDrive& drive_of(const ImportedDrive& made) const {
+    return *std::find_if(mapping_.drives.begin(), mapping_.drives.end(),
+                         [&](const ImportDrive& drive) { return drive.index == made.index; });
   }
 
   // What was known, with name and drives of the mapping.
@@ -282,14 +293,14 @@ class Importer {
       json::write_value(w, known.elements[k]);
     }
     w.key("drives").begin_array();
-    for (std::size_t d = 0; d < mapping_.drives.size(); ++d) {
-      const ImportDrive& drive = mapping_.drives[d];
-      w.begin_object().text("id", drive.id).text("file", made_.drives[d].file).text("terrain", drive.terrain);
+    for (const ImportedDrive& made : made_.drives) {
+      const ImportDrive& drive = drive_of(made);
+      w.begin_object().text("id", drive.id).text("file", made.file).text("terrain", drive.terrain);
       if (!drive.repeat_of.empty()) w.text("repeat_of", drive.repeat_of);
       w.key("commanded").begin_object();
       w.exact("speed_m_s", drive.speed_m_s).exact("curvature_1_m", drive.curvature_1_m);
       if (drive.turn_in_place) w.exact("turn_rate_deg_s", drive.turn_rate_deg_s);
-      w.boolean("turn_in_place", drive.turn_in_place).exact("duration_s", made_.drives[d].duration_s);
+      w.boolean("turn_in_place", drive.turn_in_place).exact("duration_s", made.duration_s);
       w.end_object().end_object();
     }
     w.end_array().end_object();
@@ -314,25 +325,6 @@ Result<ImportedCampaign> import_drives(const fs::path& mapping) {
   if (!read) return fail(read.error());
   return Importer(std::move(*read), mapping.parent_path().empty() ? fs::path(".") : mapping.parent_path())
       .run();
-}
-
-void place_in_logs(const ImportedCampaign& campaign, Error& error) {
-  constexpr std::size_t kHeaderLines = 1;
-  for (Fault& fault : error.faults)
-    for (const ImportedDrive& drive : campaign.drives) {
-      const std::string start = drive.file + "#/";
-      if (!fault.pointer.starts_with(start)) continue;
-      const char* const from = fault.pointer.data() + start.size();
-      const char* const end = fault.pointer.data() + fault.pointer.size();
-      std::size_t line = 0;
-      const auto [rest, failed] = std::from_chars(from, end, line);
-      if (failed != std::errc{} || line <= kHeaderLines || line - kHeaderLines > drive.lines.size()) continue;
-      std::string place = fmt::format("{}, line {}", drive.log, drive.lines[line - kHeaderLines - 1]);
-      const std::string_view name = rest == end ? "" : std::string_view(rest + 1, end);
-      for (const ImportedColumn& column : campaign.columns)
-        if (column.to == name) place += fmt::format(", column {}", column.from);
-      fault.message += fmt::format(" (made of {})", place);
-    }
 }
 
 }  // namespace slipway::api

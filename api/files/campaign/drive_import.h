@@ -13,7 +13,7 @@ namespace slipway::api {
 
 // What was understood of a column, over all drives, in the campaign's unit.
 struct ImportedColumn {
-  std::string to, from, unit;
+  std::string key, to, from, unit;                   // as in ImportColumn
   double factor = 1.0, offset = 0.0, delay_s = 0.0;  // the sign in the factor
   double lowest = 0.0, highest = 0.0;
   std::size_t values = 0, missing = 0;
@@ -21,6 +21,7 @@ struct ImportedColumn {
 
 struct ImportedDrive {
   std::string id, file;            // in the campaign that is made
+  std::size_t index = 0;           // in the mapping's list of drives
   std::string log;                 // the file that it was read from
   std::vector<std::size_t> lines;  // of the log, by row
   std::size_t rows = 0;
@@ -33,21 +34,23 @@ struct ImportedDrive {
 
 struct ImportedCampaign {
   std::string name;
+  std::string mapping_file;                // its name beside the logs
+  std::string known_file, known_document;  // what was known before: its name and bytes
   std::vector<ImportedColumn> columns;
   bool from_ned = false;  // recorded x north, y east, z down
   std::vector<ImportedDrive> drives;
   std::vector<std::string> passed_over;                    // columns of the files that nothing asked for
   std::vector<std::pair<std::string, std::string>> files;  // campaign.json and the drives': name, bytes
   std::vector<std::filesystem::path> copied;               // rasters that the known terrains name
+  // Of the mapping, the logs and what was known. Drives and columns at fault are not in the campaign; where
+  // `files` has no campaign.json, none could be made.
+  std::vector<Fault> faults;
 };
 
-// Reads the files that the mapping names, from its folder, and makes a drive-campaign/1 of them; nothing is
-// written. All faults of all files together: columns that are not there, cells that are no number, clocks
-// that do not go on. Errors: unreadable_data, and those of read_import_mapping.
+// Reads the files that the mapping names, from its folder, and makes a drive-campaign/1 of them, of as much
+// as is without fault; nothing is written. Faults are in the answer, so that those of the campaign's own
+// reader can join them (import_faults.h): columns that are not there, cells that are no number, clocks that
+// do not go on. Errors: unreadable_data where the mapping can't be read or is no TOML.
 Result<ImportedCampaign> import_drives(const std::filesystem::path& mapping);
-
-// Faults that the campaign's reader found in a drive that was made also say where that stands in the log: its
-// file, line and column.
-void place_in_logs(const ImportedCampaign& campaign, Error& error);
 
 }  // namespace slipway::api

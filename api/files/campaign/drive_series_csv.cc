@@ -19,6 +19,7 @@ namespace slipway::api {
 namespace {
 
 constexpr std::size_t kMaxFaults = 100;  // of one file, that are reported one by one
+constexpr char kSeparator = ',';
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
 constexpr double kMax_m = 1e8;  // map coordinates of a whole planet
@@ -112,6 +113,13 @@ class Reader {
     }
     if (const std::size_t columns = csv_cells(lines[0].text).size(); columns > kMaxColumns) {
       fault(lines[0].number, 0, fmt::format("{} columns, must be {} at most", columns, kMaxColumns));
+      return finish();
+    }
+    if (const auto wrong = wrong_separator(lines[0].text, kSeparator)) {
+      fault(lines[0].number, 0,
+            fmt::format("{}: write the file with commas, or read it with slipway import, whose mapping names "
+                        "the separator",
+                        *wrong));
       return finish();
     }
     read_header(lines[0]);
@@ -219,7 +227,7 @@ class Reader {
     const std::size_t columns = columns_.size();
     fault(line_, std::min(cells.size(), columns),
           fmt::format("the row has {} cells, must have {} as the header", cells.size(), columns));
-    if (cells.size() < 2) return;  // other separators
+    if (cells.size() < 2) return;  // written with another separator than the header: the fault says enough
     const std::size_t lacking = columns - std::min(cells.size(), columns);
     const std::size_t excess = cells.size() - std::min(cells.size(), columns);
     for (std::size_t c = 0; c < std::min(cells.size(), columns); ++c) {

@@ -80,6 +80,8 @@ class MappingReader {
     read_columns();
     read_drives();
     reader_.refuse_unknown();
+    mapping_.separator_at_fault = has_fault_under(faults_, "/separator");
+    mapping_.clock_at_fault = has_fault_under(faults_, "/clock");
     return std::move(mapping_);
   }
 
@@ -142,7 +144,9 @@ class MappingReader {
     for (const std::string& to : members.keys) {
       auto column = columns->object(to, kRequired);
       if (!column) continue;
+      const std::size_t before = faults_.size();
       ImportColumn read = read_column(to, *column);
+      read.at_fault = faults_.size() > before;
       if (to.find("{w}") == std::string::npos) {
         add_column(std::move(read), *column);
         continue;
@@ -163,7 +167,7 @@ class MappingReader {
 
   ImportColumn read_column(const std::string& to, ObjectReader& column) {
     ImportColumn read;
-    read.to = to;
+    read.key = read.to = to;
     column.text("from", kRequired, {}, read.from);
     column.number("offset", kOptional, kFinite, read.offset);
     column.number("sign", kOptional, kFinite, read.sign);
@@ -195,13 +199,18 @@ class MappingReader {
   void add_column(ImportColumn column, ObjectReader& reader) {
     if (column.to == "t_s") reader.fault("from", "the time is that of [clock]");
     for (const ImportColumn& other : mapping_.columns)
-      if (other.to == column.to) reader.fault("from", in_quotes(column.to) + " is mapped twice");
+      if (other.to == column.to) {
+        reader.fault("from", in_quotes(column.to) + " is mapped twice");
+        column.at_fault = true;
+      }
     mapping_.columns.push_back(std::move(column));
   }
 
   void read_drives() {
     std::set<std::string> ids;
+    std::size_t index = 0;
     for (const json::Element& element : reader_.list("drives", kRequired, {1, kMaxImported})) {
+      const std::size_t before = faults_.size(), place = index++;
       ObjectReader object(*element.value, element.pointer, faults_);
       if (!object.is_object()) continue;
       ImportDrive& drive = mapping_.drives.emplace_back();
@@ -222,6 +231,8 @@ class MappingReader {
       if (drive.from_s && drive.to_s && !(*drive.from_s < *drive.to_s))
         object.fault("to_s", "must be above from_s");
       object.refuse_unknown();
+      drive.index = place;
+      drive.at_fault = faults_.size() > before;
     }
   }
 
@@ -238,10 +249,9 @@ Result<ImportMapping> read_import_mapping(std::string_view bytes, const std::str
   if (!document) return fail(document.error());
   std::vector<Fault> faults;
   ImportMapping mapping = MappingReader(*document, faults).read();
-  if (faults.empty()) return mapping;
-  faults = moved_under(file + "#", std::move(faults));
-  const std::string summary = summary_of(faults);
-  return fail(ErrorCode::kInvalidRequest, summary, std::move(faults));
+  mapping.file = file;
+  mapping.faults = moved_under(file + "#", std::move(faults));
+  return mapping;
 }
 
 }  // namespace slipway::api

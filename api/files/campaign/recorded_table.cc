@@ -30,10 +30,9 @@ class TableReader {
     for (const std::string_view name : csv_cells(lines[0].text, separator_))
       table.names.emplace_back(unquoted(name));
     if (table.names.size() == 1 && !asked.contains(table.names.front())) {
-      fault("/1",
-            fmt::format("{}, line 1: cut at {} the header is one column, {}: check the mapping's separator",
-                        file_, separator_ == '\t' ? "tabs" : in_quotes(std::string(1, separator_)),
-                        in_quotes(table.names.front())));
+      const auto wrong = wrong_separator(lines[0].text, separator_);
+      fault("/1", fmt::format("{}, line {}, column 1: {}: change the key separator of the mapping", file_,
+                              lines[0].number, wrong.value_or("the header is a single column")));
       return table;
     }
     for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);

@@ -2575,7 +2575,7 @@ export interface components {
                 parameter: string;
                 value: number;
             }[];
-            /** @description Drives that would tell most, best first */
+            /** @description Drives that would tell most, best first; none that is expected to bring less than 0.05 bits */
             next_drives: {
                 tilt_deg: number;
                 heading_deg: number;
@@ -2646,6 +2646,13 @@ export interface components {
                 since: string;
                 /** @description Drives from that one to the alarm */
                 delay_drives: number;
+                /** @description The fewest drives running, `since` among them, one of which is the first that differs by nine tenths of the evidence */
+                onset?: {
+                    first: string;
+                    last: string;
+                    /** @description [1] What these drives have of the evidence at the alarm, 0.9 at least */
+                    share: number;
+                };
             };
             drives: {
                 id: string;
@@ -2653,6 +2660,8 @@ export interface components {
                 log10_evidence?: number;
                 /** @description At this drive or before */
                 alarm: boolean;
+                /** @description [1] With an alarm, of drives up to it: what the drive has of the evidence at the alarm as the first that differs */
+                onset_share?: number;
             }[];
             /** @description A first pointer, by derivatives alone */
             causes: {
@@ -2661,6 +2670,16 @@ export interface components {
                 /** @description [1] Of the evidence */
                 share: number;
             }[];
+            /**
+             * @description What `causes` is: no diagnosis. At the moment of the alarm, by derivatives alone and without causes from outside
+             * @constant
+             */
+            causes_are?: "first_pointer";
+            /**
+             * @description The key that counts: `diagnosis` where one was made, which may differ from `causes`
+             * @enum {string}
+             */
+            answer?: "diagnosis" | "changed";
             diagnosis?: components["schemas"]["Diagnosis"];
         };
         Rover: {

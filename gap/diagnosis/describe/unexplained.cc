@@ -41,6 +41,12 @@ ResidualShape shape_of(const OutsideFinding& outside, double share) {
   return shape;
 }
 
+// Whether a column enters where the cause does and depends on the same.
+bool is_of(const OutsideCause* cause, const DiscrepancyTerm::Column& column) {
+  return cause != nullptr && column.wheel < 0 && name_of(column.entry) == cause->entry &&
+         name_of(column.circumstance) == cause->depends;
+}
+
 }  // namespace
 
 std::vector<std::pair<double, Interval>> shape_of(Circumstance circumstance, double mean, double error) {
@@ -70,13 +76,20 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
           : 0.0;
   const double all = squares.sum() + of_outside;
   if (!(all > 0.0)) return {};
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(squares.size()));
-  for (std::size_t c = 0; c < order.size(); ++c) order[c] = static_cast<Eigen::Index>(c);
+  // What the smooth function still has where the cause from outside acts is more of that cause.
+  const OutsideCause* const cause = outside ? find_outside(outside->cause) : nullptr;
+  double more_of_outside = 0.0;
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index c = 0; c < squares.size(); ++c)
+    if (is_of(cause, term.columns[static_cast<std::size_t>(c)]))
+      more_of_outside += squares[c];
+    else
+      order.push_back(c);
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return squares[a] > squares[b]; });
   order.resize(std::min(order.size(), static_cast<std::size_t>(options.verdict.max_unexplained_shapes)));
   std::vector<ResidualShape> shapes;
-  if (outside) shapes.push_back(shape_of(*outside, of_outside / all));
+  if (outside) shapes.push_back(shape_of(*outside, (of_outside + more_of_outside) / all));
   for (const Eigen::Index c : order) {
     const DiscrepancyTerm::Column& column = term.columns[static_cast<std::size_t>(c)];
     ResidualShape& shape = shapes.emplace_back();

@@ -10,7 +10,8 @@
 namespace slipway::gap {
 
 // What remains beside a fit, by where it enters and what it depends on, the largest shares first; before
-// them the cause from outside that is in the fit, if there is one.
+// them the cause from outside that is in the fit, if there is one. Every place of entry is there once with
+// what it depends on: what else enters where that cause does counts to its share.
 std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared,
                                                 const FittedExplanation& fit,
                                                 const std::optional<OutsideFinding>& outside,

@@ -12,7 +12,10 @@
 
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/campaign/drive_import.h"
+#include "api/files/campaign/import_faults.h"
+#include "api/files/campaign/import_plausibility.h"
 #include "api/files/whole_file.h"
+#include "api/json/faults.h"
 #include "api/report/import_chart.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
@@ -42,6 +45,17 @@ std::string drives_words(const api::ImportedCampaign& campaign) {
   return table.print();
 }
 
+// Notes on readings that are hard to believe, which are told as warnings that name the mapping's keys.
+void take_out_plausibility_notes(gap::DriveCampaign& read) {
+  std::vector<std::string> all;
+  all.swap(read.notes);
+  gap::note_implausible_readings(read);
+  std::erase_if(all, [&](const std::string& note) {
+    return std::find(read.notes.begin(), read.notes.end(), note) != read.notes.end();
+  });
+  read.notes = std::move(all);
+}
+
 std::string import_words(const api::ImportedCampaign& campaign, const gap::DriveCampaign& read) {
   std::string out =
       fmt::format("{}: {} drives; rover {}, soils ", campaign.name, campaign.drives.size(), read.rover->name);
@@ -58,6 +72,8 @@ std::string import_words(const api::ImportedCampaign& campaign, const gap::Drive
   if (!campaign.passed_over.empty())
     out += fmt::format("\nnot asked for: {}\n", fmt::join(campaign.passed_over, ", "));
   for (const std::string& note : read.notes) out += "note: " + note + "\n";
+  for (const std::string& warning : api::implausible_readings(campaign, read))
+    out += "warning: " + warning + "\n";
   return out;
 }
 
@@ -93,6 +109,25 @@ Result<void> write_campaign(const api::ImportedCampaign& campaign, const fs::pat
   return {};
 }
 
+// The campaign that was made, as its own reader has it. Errors: unreadable_data with all faults of mapping,
+// logs and campaign together.
+Result<gap::DriveCampaign> read_made(const api::ImportedCampaign& campaign, const fs::path& folder,
+                                     const api::Catalogue& catalogue) {
+  const auto refused = [](std::vector<Fault> faults) {
+    const std::string summary = api::summary_of(faults);
+    return fail(ErrorCode::kUnreadableData, summary, std::move(faults));
+  };
+  std::error_code error;
+  if (!fs::exists(folder / "campaign.json", error)) return refused(campaign.faults);
+  auto read = api::load_drive_campaign(folder, catalogue);
+  if (!read) return refused(api::faults_of_import(campaign, read.error().faults));
+  std::vector<Fault> faults = campaign.faults;
+  for (Fault& fault : api::impossible_values(campaign, *read)) faults.push_back(std::move(fault));
+  if (!faults.empty()) return refused(std::move(faults));
+  take_out_plausibility_notes(*read);
+  return read;
+}
+
 }  // namespace
 
 int import(const ImportCommand& options) {
@@ -111,12 +146,10 @@ int import(const ImportCommand& options) {
   const fs::path beside = fs::path(options.mapping).parent_path();
   if (const auto written = write_campaign(*campaign, beside, made.path()); !written)
     return refuse(written.error());
-  // The campaign's own reader has the last word.
-  auto read = api::load_drive_campaign(made.path(), *catalogue);
-  if (!read) {
-    api::place_in_logs(*campaign, read.error());
-    return refuse_unreadable(read.error());
-  }
+  // The campaign's own reader has the last word. Its faults and those of the mapping and the logs are told
+  // together.
+  auto read = read_made(*campaign, made.path(), *catalogue);
+  if (!read) return refuse_unreadable(read.error());
   if (!options.out.empty()) {
     fs::remove(options.out, error);
     fs::rename(made.path(), options.out, error);

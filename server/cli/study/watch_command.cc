@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "api/documents/watch_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/catalogue.h"
+#include "api/report/watch_report.h"
 #include "gap/diagnosis/drive_watch.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
@@ -18,15 +20,14 @@
 namespace slipway::server {
 namespace {
 
-constexpr std::size_t kMaxCauses = 4;
-
-std::string diagnosis_words(const gap::Diagnosis& d) {
+std::string diagnosis_words(const gap::DriveWatch& watch) {
+  const gap::Diagnosis& d = *watch.diagnosis;
   std::vector<std::string> effects;
   for (const gap::FoundEffect& e : d.effects)
     effects.push_back(fmt::format("{} (probability {:.2f})", e.name, e.probability));
-  std::string out = fmt::format("diagnosis of the drives since then: {}{}{}\n", gap::name_of(d.verdict),
-                                effects.empty() ? "" : ": ", fmt::join(effects, ", "));
-  return out + d.reason + "\n";
+  return fmt::format("diagnosis of the drives from {} on: {}{}{}\n{}\n", watch.drives[watch.since].id,
+                     gap::name_of(d.verdict), effects.empty() ? "" : ": ", fmt::join(effects, ", "),
+                     d.reason);
 }
 
 std::string watch_words(const gap::DriveWatch& watch) {
@@ -36,26 +37,18 @@ std::string watch_words(const gap::DriveWatch& watch) {
       "an alarm is raised where the evidence of a change stands at {:g} to 1 at two drives running: while "
       "nothing changes that ever happens with a probability of at most {:g}\n",
       1.0 / watch.alpha, watch.alpha);
-  TextTable table({"drive", "log10 evidence", ""});
+  TextTable table({"drive", "log10 evidence", "share of the onset", ""});
   for (std::size_t d = 0; d < watch.drives.size(); ++d) {
     std::string mark;
-    if (watch.alarm && d == watch.since) mark = "changed since here";
+    if (watch.alarm && d == watch.since) mark = "most probably changed since here";
     if (watch.alarm == d) mark += mark.empty() ? "alarm" : ", alarm";
-    table.add({watch.drives[d].id, fmt::format("{:.2f}", watch.drives[d].log10_evidence), mark});
+    table.add({watch.drives[d].id, fmt::format("{:.2f}", watch.drives[d].log10_evidence),
+               d < watch.onset_shares.size() ? fmt::format("{:.2f}", watch.onset_shares[d]) : "", mark});
   }
-  out += table.print();
-  if (!watch.alarm) return out + "nothing has changed as far as these drives show\n";
-  std::vector<std::string> causes;
-  for (std::size_t i = 0; i < std::min(kMaxCauses, watch.causes.size()); ++i)
-    causes.push_back(fmt::format("{} {:.2f}", watch.causes[i].name, watch.causes[i].share));
-  out += fmt::format("something has changed: alarm at drive {}, most probably since {} ({} drives)\n",
-                     watch.drives[*watch.alarm].id, watch.drives[watch.since].id,
-                     *watch.alarm - watch.since + 1);
-  out += fmt::format("first pointer, by derivatives alone and without causes from outside: {}\n",
-                     fmt::join(causes, ", "));
-  if (watch.diagnosis)
-    out += "the diagnosis of the drives since, which decides:\n" + diagnosis_words(*watch.diagnosis);
-  return out;
+  out += table.print() + api::change_words(watch) + "\n";
+  if (!watch.alarm) return out;
+  out += fmt::format("{}\n{}\n", api::first_pointer_words(watch), api::deciding_words(watch));
+  return watch.diagnosis ? out + diagnosis_words(watch) : out;
 }
 
 }  // namespace
@@ -67,6 +60,9 @@ int watch(const WatchCommand& options) {
   if (!campaign) return refuse_unreadable(campaign.error());
   const auto reference = api::load_reference_drives(options.reference, *catalogue);
   if (!reference) return refuse_unreadable(reference.error());
+  // What can't be written is known before the work.
+  if (!options.report.empty())
+    if (const auto made = make_room_for_report(options.report); !made) return refuse(made.error());
   gap::WatchOptions watch;
   watch.learn = options.learn;
   watch.change.alpha = options.alpha;
@@ -82,7 +78,13 @@ int watch(const WatchCommand& options) {
   }
   if (!*result) return refuse((*result).error());
   const gap::DriveWatch& found = **result;
-  const int status = deliver({}, options.json ? api::json::watch_document(found) : watch_words(found));
+  std::vector<OutputFile> files;
+  if (!options.report.empty()) {
+    const std::vector<api::NamedChart> charts = api::draw_watch(found);
+    files = report_output(options.report, api::watch_report(*campaign, found, charts), charts, "watch.json",
+                          api::json::watch_document(found));
+  }
+  const int status = deliver(files, options.json ? api::json::watch_document(found) : watch_words(found));
   return status != kDone ? status : found.alarm ? kChanged : kDone;
 }
 

@@ -12,14 +12,19 @@ namespace slipway::server {
 namespace {
 
 using api::json::at;
+using api::json::has;
 using api::json::JsonValue;
 using api::json::number;
 using api::json::text;
 
+Result<JsonValue> parsed_catalogue(std::string_view document) {
+  return api::json::parse(document, {.bytes = document.size(), .values = document.size()});
+}
+
 Result<std::string> catalogue_table(std::string_view document, std::string_view key,
                                     std::vector<std::string> header,
                                     std::vector<std::string> (*row)(const JsonValue&)) {
-  const auto parsed = api::json::parse(document, {.bytes = document.size(), .values = document.size()});
+  const auto parsed = parsed_catalogue(document);
   if (!parsed) return fail(parsed.error());
   TextTable table(std::move(header));
   for (const JsonValue& entry : at(*parsed, key).elements) table.add(row(entry));
@@ -97,14 +102,45 @@ Result<std::string> soil_table(std::string_view document) {
 }
 
 Result<std::string> effect_table(std::string_view document) {
-  return catalogue_table(document, "effects", {"effect", "what it is", "parameters"}, [](const JsonValue& e) {
-    std::string parameters;
-    for (const JsonValue& p : at(e, "parameters").elements)
-      parameters += fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ", text(p, "name"),
-                                number(p, "initial"), number(p, "lowest"), number(p, "highest"),
-                                text(p, "unit") == "1" ? "" : " " + text(p, "unit"));
-    return std::vector<std::string>{text(e, "name"), text(e, "summary"), parameters};
-  });
+  auto table =
+      catalogue_table(document, "effects", {"effect", "what it is", "parameters"}, [](const JsonValue& e) {
+        std::string parameters;
+        for (const JsonValue& p : at(e, "parameters").elements)
+          parameters +=
+              fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ", text(p, "name"),
+                          number(p, "initial"), number(p, "lowest"), number(p, "highest"),
+                          text(p, "unit") == "1" ? "" : " " + text(p, "unit"));
+        return std::vector<std::string>{text(e, "name"), text(e, "summary"), parameters};
+      });
+  if (table)
+    *table +=
+        "slipway effects NAME explains the parameters of one effect: unit, default, range and meaning\n";
+  return table;
+}
+
+Result<std::string> effect_field_table(std::string_view document) {
+  const auto parsed = parsed_catalogue(document);
+  if (!parsed) return fail(parsed.error());
+  std::string out;
+  for (const JsonValue& e : at(*parsed, "effects").elements) {
+    const std::vector<JsonValue>& parameters = at(e, "parameters").elements;
+    out +=
+        fmt::format("{}: {}\ndescribed by: {}\n", text(e, "name"), text(e, "summary"), text(e, "reference"));
+    TextTable table({"parameter", "unit", "default", "lowest", "highest", "no effect at", "meaning"});
+    for (const JsonValue& p : parameters)
+      table.add({text(p, "name"), text(p, "unit") == "1" ? "-" : text(p, "unit"),
+                 fmt::format("{:g}", number(p, "initial")), fmt::format("{:g}", number(p, "lowest")),
+                 fmt::format("{:g}", number(p, "highest")),
+                 has(p, "neutral") ? fmt::format("{:g}", number(p, "neutral")) : "-", text(p, "summary")});
+    out += "\n" + table.print();
+    if (!parameters.empty())
+      out += fmt::format(
+          "\nIt is switched on with --effect {}, or with other values of its parameters as in\n"
+          "  --effect {}:{}={:g}\n",
+          text(e, "name"), text(e, "name"), text(parameters.front(), "name"),
+          number(parameters.front(), "initial"));
+  }
+  return out;
 }
 
 }  // namespace slipway::server

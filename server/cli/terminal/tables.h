@@ -19,6 +19,8 @@ Result<std::string> terrain_table(std::string_view document);
 Result<std::string> rover_table(std::string_view document);
 Result<std::string> soil_table(std::string_view document);
 Result<std::string> effect_table(std::string_view document);
+// The parameters of every effect in the document: unit, value by default, range and meaning.
+Result<std::string> effect_field_table(std::string_view document);
 
 // An error with every fault, a line each.
 std::string error_text(const Error& error);

@@ -1,0 +1,113 @@
+#include "api/files/campaign/import_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "api/json/text_place.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr std::string_view kDocument = "campaign.json#";
+constexpr std::string_view kDrives = "/drives";
+constexpr std::size_t kHeaderLines = 1;
+
+// A number at the beginning of a text, and what stands behind it.
+std::optional<std::size_t> leading_number(std::string_view& text) {
+  std::size_t number = 0;
+  const auto [rest, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failed != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+  return number;
+}
+
+// The message without the place in the campaign that was made, which nobody has: "..., column 3 (/rover): ".
+std::string_view without_place(std::string_view message) {
+  constexpr std::string_view kBehindPlace = "): ";
+  const std::size_t at = message.find(kBehindPlace);
+  return at == std::string_view::npos ? message : message.substr(at + kBehindPlace.size());
+}
+
+class Placing {
+ public:
+  explicit Placing(const ImportedCampaign& campaign) : campaign_(campaign), all_(campaign.faults) {}
+
+  void add(const Fault& fault) {
+    const std::string_view pointer = fault.pointer;
+    if (pointer.starts_with(kDocument))
+      add_of_document(pointer.substr(kDocument.size()), fault);
+    else
+      add_of_drive(fault);
+  }
+  std::vector<Fault> take() { return std::move(all_); }
+
+ private:
+  bool has_own() const { return !campaign_.faults.empty(); }
+
+  void add_of_document(std::string_view pointer, const Fault& fault) {
+    if (!pointer.starts_with(kDrives)) {
+      const json::TextPlace place = json::place_of(campaign_.known_document, pointer);
+      all_.push_back(
+          {fmt::format("{}#{}", campaign_.known_file, pointer),
+           fmt::format("{}, line {}, column {} ({}): {}", campaign_.known_file, place.line, place.column,
+                       pointer.empty() ? "all of it" : pointer, without_place(fault.message))});
+      return;
+    }
+    // Drives that could not be made are missing in the list, and to those that repeat them.
+    if (has_own() && (pointer == kDrives || pointer.ends_with("/repeat_of"))) return;
+    std::string of_mapping(pointer);
+    if (std::string_view rest = pointer.substr(std::min(pointer.size(), kDrives.size() + 1)); !rest.empty())
+      if (const auto made = leading_number(rest); made && *made < campaign_.drives.size())
+        of_mapping = fmt::format("{}/{}{}", kDrives, campaign_.drives[*made].index, rest);
+    all_.push_back({fmt::format("{}#{}", campaign_.mapping_file, of_mapping),
+                    std::string(without_place(fault.message))});
+  }
+
+  void add_of_drive(const Fault& fault) {
+    const auto drive = std::find_if(campaign_.drives.begin(), campaign_.drives.end(),
+                                    [&](const auto& d) { return fault.pointer.starts_with(d.file + "#/"); });
+    if (drive == campaign_.drives.end()) return all_.push_back(fault);
+    std::string_view rest = std::string_view(fault.pointer).substr(drive->file.size() + 2);
+    const auto line = leading_number(rest);
+    if (!line || *line > drive->lines.size() + kHeaderLines) return all_.push_back(fault);
+    if (*line <= kHeaderLines) return add_of_columns(fault);
+    const std::string_view name = rest.empty() ? rest : rest.substr(1);
+    std::string_view from = name;
+    for (const ImportedColumn& column : campaign_.columns)
+      if (column.to == name) from = column.from;
+    const std::size_t row = *line - kHeaderLines - 1;
+    all_.push_back({fmt::format("{}#/{}/{}", drive->log, drive->lines[row], from),
+                    fmt::format("{} (made of {})", fault.message, place_in_log(*drive, row, from))});
+  }
+
+  // The header of every drive is made of the mapping's columns: what it lacks is told once, and not where a
+  // column was at fault itself.
+  void add_of_columns(const Fault& fault) {
+    const std::string words(without_place(fault.message));
+    if (has_own() || !told_of_columns_.insert(words).second) return;
+    all_.push_back({fmt::format("{}#/columns", campaign_.mapping_file), words});
+  }
+
+  const ImportedCampaign& campaign_;
+  std::vector<Fault> all_;
+  std::set<std::string> told_of_columns_;
+};
+
+}  // namespace
+
+std::vector<Fault> faults_of_import(const ImportedCampaign& campaign, std::span<const Fault> of_campaign) {
+  Placing placing(campaign);
+  for (const Fault& fault : of_campaign) placing.add(fault);
+  return placing.take();
+}
+
+std::string place_in_log(const ImportedDrive& drive, std::size_t row, std::string_view column) {
+  return fmt::format("{}, line {} ({})", drive.log, drive.lines[row], column);
+}
+
+}  // namespace slipway::api
