@@ -21,7 +21,7 @@ namespace {
 using gap::DriveCampaign;
 using gap::DriveSample;
 using gap::MeasuredDriveSeries;
-using gap::median;
+using gap::upper_median;
 
 // How large the values of a kind of column usually are at most, and can be at most, in the campaign's unit.
 struct ColumnLimit {
@@ -107,7 +107,7 @@ std::set<std::string> keys_of(const ImportedCampaign& campaign, std::string_view
 
 std::optional<double> median_of(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  return median(std::move(values));
+  return upper_median(std::move(values));
 }
 
 class Judge {

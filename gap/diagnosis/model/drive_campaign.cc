@@ -69,7 +69,7 @@ std::optional<double> median_size(const DriveCampaign& campaign, double WheelRea
       for (const WheelReading& wheel : sample.wheels)
         if (std::isfinite(wheel.*quantity)) sizes.push_back(std::abs(wheel.*quantity));
   if (sizes.empty()) return std::nullopt;
-  return median(std::move(sizes));
+  return upper_median(std::move(sizes));
 }
 
 // How far a drive led from its first pose, at most, over the commanded way; nothing of a turn in place.
@@ -93,7 +93,7 @@ std::optional<double> median_way_share(const DriveCampaign& campaign) {
   for (const MeasuredDriveSeries& drive : campaign.drives)
     if (const auto share = way_share(drive)) shares.push_back(*share);
   if (shares.empty()) return std::nullopt;
-  return median(std::move(shares));
+  return upper_median(std::move(shares));
 }
 
 }  // namespace

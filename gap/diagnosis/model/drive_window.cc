@@ -49,7 +49,7 @@ double interval_s(const MeasuredDriveSeries& drive) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < drive.samples.size(); ++i)
     intervals.push_back(drive.samples[i].time_s - drive.samples[i - 1].time_s);
-  return median(std::move(intervals));
+  return upper_median(std::move(intervals));
 }
 
 // How long a window lasts, s: three rows at least.

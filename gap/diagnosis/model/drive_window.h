@@ -34,10 +34,9 @@ struct WindowOptions {
   double length_m = 1.5;  // commanded; more where rows are so far apart that it would not hold three
   double turn_rad = 0.8;  // of a turn in place
   int stations = 3;
-  double outlier = 6.0;        // sensor's deviations off the neighbours' median, of which the window's
-                               // steady change is taken out: such a reading is passed over
-  int outlier_neighbours = 2;  // on either side
-  double pause_share = 0.75;   // of a window: none reaches across a longer pause in the rows
+  double outlier = 6.0;  // sensor's deviations off the neighbours' median: such a reading is passed over
+  int outlier_neighbours = 2;              // on either side
+  double pause_share = 0.75;               // of a window: none reaches across a longer pause in the rows
   bool currents_in_sense_of_rate = false;  // this and the next: found in the campaign's own readings
   bool currents_split_evenly = false;
 };

@@ -41,8 +41,8 @@ std::optional<std::vector<double>> measured_rate_shares(const DriveCampaign& cam
   }
   if (of_wheel.empty() || static_cast<double>(of_wheel.front().size()) < kMinRows) return std::nullopt;
   std::vector<double> medians;
-  for (std::vector<double>& shares : of_wheel) medians.push_back(median(std::move(shares)));
-  const double usual = median(medians);
+  for (std::vector<double>& shares : of_wheel) medians.push_back(upper_median(std::move(shares)));
+  const double usual = upper_median(medians);
   if (!(usual > 0.0)) return std::nullopt;
   for (double& share : medians) share /= usual;
   return medians;

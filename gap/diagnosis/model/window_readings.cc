@@ -66,11 +66,10 @@ Way way_since_middle(const Line& heading, double t) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
+double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*std::max_element(values.begin(), middle) + *middle);
+  return *middle;
 }
 
 double Readings::mean() const {
@@ -79,25 +78,15 @@ double Readings::mean() const {
   return sum / static_cast<double>(count());
 }
 
-double Readings::median_rate() const {
-  const std::size_t apart = count() / 2;
-  std::vector<double> rates;
-  for (std::size_t i = apart; i < count(); ++i)
-    rates.push_back((value[i] - value[i - apart]) / (time_s[i] - time_s[i - apart]));
-  return median(std::move(rates));
-}
-
 Readings Readings::kept(double std, const WindowOptions& options) const {
   if (count() < 5 || std <= 0.0) return *this;
   const auto neighbours = static_cast<std::size_t>(options.outlier_neighbours);
-  const double rate = median_rate();
   Readings left;
   for (std::size_t i = 0; i < count(); ++i) {
-    std::vector<double> around;  // as they would read at time i
+    std::vector<double> around;
     const std::size_t from = i < neighbours ? 0 : i - neighbours;
-    for (std::size_t j = from; j <= std::min(count() - 1, i + neighbours); ++j)
-      around.push_back(value[j] - rate * (time_s[j] - time_s[i]));
-    if (std::abs(value[i] - median(std::move(around))) > options.outlier * std) continue;
+    for (std::size_t j = from; j <= std::min(count() - 1, i + neighbours); ++j) around.push_back(value[j]);
+    if (std::abs(value[i] - upper_median(std::move(around))) > options.outlier * std) continue;
     left.time_s.push_back(time_s[i]);
     left.value.push_back(value[i]);
   }

@@ -11,8 +11,8 @@
 
 namespace slipway::gap {
 
-// The middle value, of an even number the mean of the middle two. Values not empty.
-double median(std::vector<double> values);
+// The middle value, of an even number the greater of the middle two. Values not empty.
+double upper_median(std::vector<double> values);
 
 // Readings of one quantity over a window.
 struct Readings {
@@ -20,11 +20,7 @@ struct Readings {
 
   std::size_t count() const { return value.size(); }
   double mean() const;
-  // Of readings half the window apart, each with one of the other half: of two readings at least, in the
-  // quantity's unit per second [Theil 1950].
-  double median_rate() const;
-  // Without what lies far from its neighbours' median, for readings of one standard deviation. What changes
-  // steadily over the window, as a heading in a turn, is compared as if it did not.
+  // Without what lies far from its neighbours' median, for readings of one standard deviation.
   Readings kept(double std, const WindowOptions& options) const;
 };
 
