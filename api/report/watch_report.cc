@@ -51,11 +51,17 @@ ChartAxis drive_axis(const DriveWatch& watch) {
   return axis;
 }
 
-Chart evidence_chart(const DriveWatch& watch) {
+Chart chart_over_drives(const DriveWatch& watch, std::string title, std::string of) {
   Chart chart;
-  chart.title = "Evidence of a change up to each drive";
+  chart.title = std::move(title);
   chart.x = drive_axis(watch);
-  chart.y.title = "decimal logarithm of the evidence";
+  chart.y.title = std::move(of);
+  return chart;
+}
+
+Chart evidence_chart(const DriveWatch& watch) {
+  Chart chart =
+      chart_over_drives(watch, "Evidence of a change up to each drive", "decimal logarithm of the evidence");
   const double limit = -std::log10(watch.alpha);
   ChartSeries evidence{.name = "evidence", .mark = ChartMark::kLineAndPoints, .x = {}, .y = {}, .colour = 0};
   double lowest = 0.0, highest = limit;
@@ -88,10 +94,8 @@ Chart evidence_chart(const DriveWatch& watch) {
 }
 
 Chart onset_chart(const DriveWatch& watch) {
-  Chart chart;
-  chart.title = "Which drive is the first that differs";
-  chart.x = drive_axis(watch);
-  chart.y.title = "share of the evidence at the alarm, %";
+  Chart chart = chart_over_drives(watch, "Which drive is the first that differs",
+                                  "share of the evidence at the alarm, %");
   chart.y.lowest = 0.0;
   ChartSeries shares{
       .name = "share of the onset", .mark = ChartMark::kLineAndPoints, .x = {}, .y = {}, .colour = 3};

@@ -14,17 +14,7 @@
 namespace slipway::api {
 namespace {
 
-class AReportedDiagnosis : public ::testing::Test {
- protected:
-  static const gap::DriveCampaign& campaign() {
-    static const gap::DriveCampaign loaded = testing::practice_campaign();
-    return loaded;
-  }
-  static const gap::Diagnosis& diagnosis() {
-    static const gap::Diagnosis made = testing::full_diagnosis(campaign());
-    return made;
-  }
-};
+using AReportedDiagnosis = testing::WithFullDiagnosis;
 
 TEST_F(AReportedDiagnosis, IsReportedWithItsRoverGravityAndDates) {
   const std::string undated = diagnosis_report(campaign(), diagnosis(), {}).markdown();

@@ -28,16 +28,8 @@ namespace {
 
 using json::JsonValue;
 
-class ADiagnosis : public ::testing::Test {
+class ADiagnosis : public testing::WithFullDiagnosis {
  protected:
-  static const gap::DriveCampaign& campaign() {
-    static const gap::DriveCampaign loaded = testing::practice_campaign();
-    return loaded;
-  }
-  static const gap::Diagnosis& diagnosis() {
-    static const gap::Diagnosis made = testing::full_diagnosis(campaign());
-    return made;
-  }
   static JsonValue document(const gap::Diagnosis& d) {
     return json::parse(json::diagnosis_document(campaign(), d)).value();
   }

@@ -112,4 +112,14 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   return d;
 }
 
+const gap::DriveCampaign& WithFullDiagnosis::campaign() {
+  static const gap::DriveCampaign loaded = practice_campaign();
+  return loaded;
+}
+
+const gap::Diagnosis& WithFullDiagnosis::diagnosis() {
+  static const gap::Diagnosis made = full_diagnosis(campaign());
+  return made;
+}
+
 }  // namespace slipway::api::testing

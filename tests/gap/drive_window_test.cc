@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/angle.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
@@ -180,16 +181,14 @@ TEST(DriveCampaign, WheelsThatTurnedAgainstTheCommandAreNoted) {
 }
 
 // A campaign whose times were milliseconds taken for seconds came as "no effect is missing".
-TEST(DriveCampaign, ReadingsThatNoSuchRoverHasAreNoted) {
+TEST(ReadingPlausibility, NotesReadingsThatNoSuchRoverHas) {
   const auto notes_of = [](const auto& change) {
     DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
-    campaign.notes.clear();
     for (DriveSample& sample : campaign.drives[0].samples) {
       for (WheelReading& wheel : sample.wheels) wheel.motor_temp_c = 20.0, wheel.sinkage_m = 0.01;
       change(sample);
     }
-    note_implausible_readings(campaign);
-    return campaign.notes;
+    return notes_of_implausible_readings(campaign);
   };
   EXPECT_TRUE(notes_of([](DriveSample&) {}).empty());
   const auto noted = [&](const auto& change, const std::string& words) {
@@ -214,7 +213,7 @@ TEST(DriveCampaign, ReadingsThatNoSuchRoverHasAreNoted) {
       [](DriveSample& s) {
         for (WheelReading& w : s.wheels) w.sinkage_m = 10.0;
       },
-      "deeper than 10 m");
+      "half of the sinkages are beyond 10 m");
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "dem/elevation_source.h"
 #include "dem/soil_map.h"
 #include "gap/diagnosis/model/drive_window.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
 
 namespace slipway::api {
 namespace {
@@ -280,7 +281,8 @@ void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSer
 void take_as_recorded(gap::DriveCampaign& campaign) {
   gap::adopt_measured_rates(campaign);
   gap::note_turned_against_command(campaign);
-  gap::note_implausible_readings(campaign);
+  for (std::string& note : gap::notes_of_implausible_readings(campaign))
+    campaign.notes.push_back(std::move(note));
   if (gap::currents_split_evenly(campaign))
     campaign.notes.emplace_back(
         "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
 
 #include "api/files/campaign/import_faults.h"
 #include "core/angle.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
 #include "gap/diagnosis/model/window_readings.h"
-#include "sim/rover/motor.h"
 
 namespace slipway::api {
 namespace {
@@ -21,53 +20,12 @@ namespace {
 using gap::DriveCampaign;
 using gap::DriveSample;
 using gap::MeasuredDriveSeries;
+using gap::ReadingLimit;
 using gap::upper_median;
 
-// How large the values of a kind of column usually are at most, and can be at most, in the campaign's unit.
-struct ColumnLimit {
-  std::string_view ending;  // of the campaign's column
-  std::string_view unit;
-  double likely = 0.0, possible = 0.0;
-  std::string_view likely_since, possible_since;  // why
-};
-
-// The fastest wheel's commanded rate, rad/s.
-double commanded_rate(const DriveCampaign& read, const MeasuredDriveSeries& drive) {
-  double fastest = 0.0;
-  for (const sim::WheelCommand& wheel : sim::wheel_commands(*read.rover, drive.command))
-    fastest = std::max(fastest, std::abs(wheel.rate_rad_s));
-  return fastest;
-}
-
-std::vector<ColumnLimit> column_limits(const DriveCampaign& read) {
-  constexpr double kLifts =
-      10.0;  // times what lifts the rover by one wheel: no motor of its size survives it
-  constexpr double kLikelyRates = 3.0, kPossibleRates = 20.0;  // over the greatest commanded rate
-  constexpr double kSlowly_rad_s = 1e-6;                       // that a motor turns, not at which rate
-  const sim::RoverModel& rover = *read.rover;
-  const double radius_m = rover.wheels.front().radius_m;
-  const double lifting_a =
-      sim::motor_state(rover.drive, rover.mass_kg * read.gravity_m_s2 * radius_m, kSlowly_rad_s).current_a;
-  double rate_deg_s = 0.0;
-  for (const MeasuredDriveSeries& drive : read.drives)
-    rate_deg_s = std::max(rate_deg_s, deg_from_rad(commanded_rate(read, drive)));
-  if (rate_deg_s == 0.0) rate_deg_s = std::numeric_limits<double>::infinity();  // nothing to compare with
-  return {
-      {"roll_deg", "deg", 45.0, 90.0, "no rover drives on steeper ground", "the rover would lie on its back"},
-      {"pitch_deg", "deg", 45.0, 90.0, "no rover drives on steeper ground",
-       "the rover would lie on its back"},
-      {"_current_a", "A", lifting_a, kLifts * lifting_a, "this lifts the rover by one wheel",
-       "this is ten times what lifts the rover by one wheel"},
-      {"_motor_temp_c", "C", 100.0, 200.0, "motors are kept below this", "windings burn above this"},
-      {"_sinkage_m", "m", radius_m, 2.0 * radius_m, "this is a wheel's radius", "the wheel would be buried"},
-      {"_rate_deg_s", "deg/s", kLikelyRates * rate_deg_s, kPossibleRates * rate_deg_s,
-       "this is three times the greatest commanded rate",
-       "this is twenty times the greatest commanded rate"}};
-}
-
-const ColumnLimit* limit_of(const std::vector<ColumnLimit>& limits, std::string_view column) {
+const ReadingLimit* limit_of(const std::vector<ReadingLimit>& limits, std::string_view column) {
   const auto at = std::find_if(limits.begin(), limits.end(),
-                               [&](const ColumnLimit& limit) { return column.ends_with(limit.ending); });
+                               [&](const ReadingLimit& limit) { return column.ends_with(limit.column); });
   return at == limits.end() ? nullptr : &*at;
 }
 
@@ -125,8 +83,8 @@ class Judge {
 
  private:
   void judge_sizes() {
-    for (const ColumnLimit& limit : column_limits(read_))
-      for (const std::string& key : keys_of(campaign_, limit.ending))
+    for (const ReadingLimit& limit : reading_limits(read_))
+      for (const std::string& key : keys_of(campaign_, limit.column))
         if (const auto half = median_of(sizes_of(campaign_, key)); half && *half > limit.likely)
           warnings_.push_back(
               fmt::format("half of the values read from {} are larger than {:.3g} {}; expected is {:.3g} {} "
@@ -137,20 +95,17 @@ class Judge {
   }
 
   void judge_way() {
-    constexpr double kShort = 0.02,
-                     kLong = 3.0;  // of the commanded way: slip may be near 1, never far below 0
-    std::vector<double> shares;
-    for (const ImportedDrive& drive : campaign_.drives)
-      if (drive.commanded_m > 0.0) shares.push_back(drive.travelled_m / drive.commanded_m);
-    const auto half = median_of(std::move(shares));
-    if (!half || keys_of(campaign_, "x_m").empty() || (*half >= kShort && *half <= kLong)) return;
+    const auto half = gap::median_way_share(read_);
+    if (!half || keys_of(campaign_, "x_m").empty() ||
+        (*half >= gap::kShortestWay && *half <= gap::kLongestWay))
+      return;
     warnings_.push_back(fmt::format(
-        "half of the drives went {} than {:.3g} times their commanded way from start to end; expected is "
+        "half of the drives went {} than {:.3g} times their commanded way; expected is "
         "{:g} to "
         "{:g} times. If the clock was recorded in another unit, change the key clock.unit of {}; if "
         "positions "
         "were, change the key unit of columns.x_m and columns.y_m; else look at speed_m_s of the drives",
-        *half < 1.0 ? "less" : "more", *half, kShort, kLong, campaign_.mapping_file));
+        *half < 1.0 ? "less" : "more", *half, gap::kShortestWay, gap::kLongestWay, campaign_.mapping_file));
   }
 
   // Rates below the limit of their size may still be far from the commanded ones.
@@ -159,7 +114,7 @@ class Judge {
     constexpr double kSlow = 0.3;
     std::vector<double> shares;
     for (const MeasuredDriveSeries& drive : read_.drives) {
-      const double commanded = commanded_rate(read_, drive);
+      const double commanded = gap::greatest_commanded_rate(read_, drive);
       std::vector<double> rates;
       for (const DriveSample& sample : drive.samples)
         for (const gap::WheelReading& wheel : sample.wheels)
@@ -248,12 +203,12 @@ class Judge {
 }  // namespace
 
 std::vector<Fault> impossible_values(const ImportedCampaign& campaign, const DriveCampaign& read) {
-  const std::vector<ColumnLimit> limits = column_limits(read);
+  const std::vector<ReadingLimit> limits = reading_limits(read);
   std::vector<Fault> faults;
   for (const ImportedDrive& drive : campaign.drives)
     for (std::size_t c = 0; c < campaign.columns.size(); ++c) {
       const ImportedColumn& column = campaign.columns[c];
-      const ColumnLimit* const limit = limit_of(limits, column.to);
+      const ReadingLimit* const limit = limit_of(limits, column.to);
       if (limit == nullptr) continue;
       const auto beyond = [&](double value) { return std::abs(value) > limit->possible; };
       const auto first = std::find_if(drive.values[c].begin(), drive.values[c].end(), beyond);

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "core/angle.h"
-#include "gap/diagnosis/model/window_readings.h"
 
 namespace slipway::gap {
 
@@ -57,72 +56,6 @@ void note_turned_against_command(DriveCampaign& campaign) {
   campaign.notes.push_back(
       fmt::format("{} of {} drives ({}{}): the wheels turned against the commanded direction", count,
                   campaign.drives.size(), fmt::join(against, ", "), count > kMaxNamed ? ", ..." : ""));
-}
-
-namespace {
-
-// Of what was read of all wheels, of its size; nothing where nothing was.
-std::optional<double> median_size(const DriveCampaign& campaign, double WheelReading::*quantity) {
-  std::vector<double> sizes;
-  for (const MeasuredDriveSeries& drive : campaign.drives)
-    for (const DriveSample& sample : drive.samples)
-      for (const WheelReading& wheel : sample.wheels)
-        if (std::isfinite(wheel.*quantity)) sizes.push_back(std::abs(wheel.*quantity));
-  if (sizes.empty()) return std::nullopt;
-  return upper_median(std::move(sizes));
-}
-
-// How far a drive led from its first pose, at most, over the commanded way; nothing of a turn in place.
-std::optional<double> way_share(const MeasuredDriveSeries& drive) {
-  const DriveSample *first = nullptr, *last = nullptr;
-  double way_m = 0.0;
-  for (const DriveSample& sample : drive.samples) {
-    if (!sample.p_MB.head<2>().allFinite()) continue;
-    if (first == nullptr) first = &sample;
-    last = &sample;
-    way_m = std::max(way_m, (sample.p_MB - first->p_MB).head<2>().norm());
-  }
-  if (first == last || drive.command.turn_in_place) return std::nullopt;
-  const double commanded_m = std::abs(drive.command.speed_m_s) * (last->time_s - first->time_s);
-  if (!(commanded_m > 0.0)) return std::nullopt;
-  return way_m / commanded_m;
-}
-
-std::optional<double> median_way_share(const DriveCampaign& campaign) {
-  std::vector<double> shares;
-  for (const MeasuredDriveSeries& drive : campaign.drives)
-    if (const auto share = way_share(drive)) shares.push_back(*share);
-  if (shares.empty()) return std::nullopt;
-  return upper_median(std::move(shares));
-}
-
-}  // namespace
-
-void note_implausible_readings(DriveCampaign& campaign) {
-  // Of the commanded way: slip may be near 1, never far below 0.
-  constexpr double kShortWay = 0.02, kLongWay = 3.0;
-  constexpr double kHotMotor_c = 100.0;
-  const sim::RoverModel& rover = *campaign.rover;
-  const auto note = [&](std::string what) {
-    campaign.notes.push_back(what +
-                             ": check units and clock, since nothing that follows is right if one is wrong");
-  };
-  if (const auto way = median_way_share(campaign); way && (*way < kShortWay || *way > kLongWay))
-    note(fmt::format("half of the drives went {} than {:.3g} of the commanded way",
-                     *way < 1.0 ? "less" : "more", *way));
-  const double lifting_nm = rover.mass_kg * campaign.gravity_m_s2 * rover.wheels.front().radius_m;
-  const double lifting_a =
-      rover.drive.no_load_current_a + lifting_nm / (rover.drive.torque_constant_nm_per_a *
-                                                    rover.drive.gear_ratio * rover.drive.gear_efficiency);
-  if (const auto current = median_size(campaign, &WheelReading::current_a); current && *current > lifting_a)
-    note(fmt::format(
-        "half of the currents are beyond {:.3g} A, where {:.3g} A would lift the rover by one wheel",
-        *current, lifting_a));
-  if (const auto temp = median_size(campaign, &WheelReading::motor_temp_c); temp && *temp > kHotMotor_c)
-    note(fmt::format("half of the motors' temperatures are beyond {:.3g} C", *temp));
-  if (const auto sinkage = median_size(campaign, &WheelReading::sinkage_m);
-      sinkage && *sinkage > rover.wheels.front().radius_m)
-    note(fmt::format("half of the sinkages are deeper than {:.3g} m, more than a wheel's radius", *sinkage));
 }
 
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives) {

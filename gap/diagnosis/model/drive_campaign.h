@@ -106,11 +106,6 @@ void adopt_measured_rates(DriveCampaign& campaign);
 // A note of drives whose wheels turned against what was commanded. They are read all the same.
 void note_turned_against_command(DriveCampaign& campaign);
 
-// Notes of readings that no such rover has, as where a unit or a clock was taken for another: distances
-// driven far beyond or below the commanded ones, currents beyond what would lift the rover by one wheel,
-// motors hotter than boiling water, sinkages deeper than a wheel. They are read all the same.
-void note_implausible_readings(DriveCampaign& campaign);
-
 // The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
 // repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives);

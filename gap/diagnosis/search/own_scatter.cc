@@ -15,11 +15,11 @@ struct ScatteredExplanation {
   FittedExplanation fit;  // under these scales
   NoiseScales scales;
   // Logarithms of the evidence: with no more than the imprecision of any simulator, and with something else
-  // besides, which has scales of its own.
+  // besides.
   double alone = 0.0, with_something_else = 0.0;
 };
 
-// One explanation's scatter, searched from what was believed before the drives.
+// One explanation's scatter, searched from given scales.
 class ScatterSearch {
  public:
   ScatterSearch(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
@@ -31,22 +31,40 @@ class ScatterSearch {
         compared_with_(noise.log_normalisation()),
         own_(noise) {}
 
-  ScatteredExplanation beside(const FittedExplanation& fit) && {
+  // From these scales, estimated anew in so many rounds. What is estimated is of linearised residuals,
+  // without the fits' robust loss, and may be worse than the scales before: of all that is met the most
+  // probable counts. Something else has scales of its own where there are rounds.
+  ScatteredExplanation beside(const FittedExplanation& fit, const NoiseScales& from, int rounds) && {
     scatter_around(fit, model_, own_);
-    own_.set(own_.believed(), options_.search.threads);
-    ScatteredExplanation found{refine_soft_patch(campaign_, model_, own_, fitted_again(fit), options_.fit,
-                                                 options_.soft_patch, options_.search.threads),
-                               {}};
-    for (int round = 0; round < options_.preparation.scatter_rounds && !model_.cancelled(); ++round) {
-      estimate_beside(found.fit, options_.discrepancy.imprecision);
-      found.fit = fitted_again(found.fit);
+    own_.set(from, options_.search.threads);
+    FittedExplanation last = refine_soft_patch(campaign_, model_, own_, fitted_again(fit), options_.fit,
+                                               options_.soft_patch, options_.search.threads);
+    ScatteredExplanation best{last, own_.scales(), evidence_of(last)};
+    int best_round = -1;
+    for (int round = 0; round < rounds && !model_.cancelled(); ++round) {
+      estimate_beside(last, options_.discrepancy.imprecision);
+      last = fitted_again(last);
+      if (const double now = evidence_of(last); now > best.alone) {
+        best = {last, own_.scales(), now};
+        best_round = round;
+      }
     }
-    found.scales = own_.scales();
-    found.alone = evidence_of(found.fit, &DiscrepancyGain::imprecision);
-    if (!options_.search.something_else || model_.cancelled()) return found;
-    estimate_beside(found.fit, 1.0);
-    found.with_something_else = evidence_of(fitted_again(found.fit), &DiscrepancyGain::something_else);
-    return found;
+    if (model_.cancelled()) return best;
+    if (best_round + 1 < rounds) {
+      scatter_around(best.fit, model_, own_);
+      own_.set(best.scales, options_.search.threads);
+      best.fit = fitted_again(best.fit);
+      best.alone = evidence_of(best.fit);
+    }
+    const DiscrepancyGain gain = gain_of(best.fit);
+    best.with_something_else = best.alone + gain.something_else;
+    best.alone += gain.imprecision;
+    if (!options_.search.something_else || rounds == 0) return best;
+    estimate_beside(best.fit, 1.0);
+    const FittedExplanation beside_else = fitted_again(best.fit);
+    best.with_something_else =
+        std::max(best.with_something_else, evidence_of(beside_else) + gain_of(beside_else).something_else);
+    return best;
   }
 
  private:
@@ -62,9 +80,12 @@ class ScatterSearch {
     own_.estimate(problem.residuals, systematic, options_.search.threads);
   }
 
-  double evidence_of(const FittedExplanation& fit, double DiscrepancyGain::*part) const {
-    const DiscrepancyGain gain = discrepancy_gain(campaign_, model_, own_, fit, discrepancy_, options_);
-    return fit.log_evidence + gain.*part + own_.log_normalisation() - compared_with_;
+  DiscrepancyGain gain_of(const FittedExplanation& fit) const {
+    return discrepancy_gain(campaign_, model_, own_, fit, discrepancy_, options_);
+  }
+  // Without any discrepancy.
+  double evidence_of(const FittedExplanation& fit) const {
+    return fit.log_evidence + own_.log_normalisation() - compared_with_;
   }
 
   const DriveCampaign& campaign_;
@@ -102,6 +123,25 @@ std::optional<Hypothesis> at_place_of(const DriveCampaign& campaign, const Fitte
   return Hypothesis(campaign, moved);
 }
 
+// Where another fit found soils, closures and the effects that both have; what it does not have stays
+// neutral.
+std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplanation& other) {
+  std::vector<double> start = hypothesis.neutral();
+  const auto own = hypothesis.parameters(), there = other.hypothesis.parameters();
+  for (std::size_t p = 0; p < own.size(); ++p)
+    for (std::size_t q = 0; q < there.size(); ++q)
+      if (own[p].name == there[q].name) start[p] = other.x[q];
+  return start;
+}
+
+bool has_all_effects_of(const FittedExplanation& fit, const FittedExplanation& other) {
+  const auto effects = fit.hypothesis.effects(), of_other = other.hypothesis.effects();
+  return std::all_of(of_other.begin(), of_other.end(), [&](const EffectVariant& o) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const EffectVariant& v) { return v.effect == o.effect; });
+  });
+}
+
 }  // namespace
 
 void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& model,
@@ -112,9 +152,11 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
   const auto most = static_cast<std::size_t>(options.search.max_scattered);
   const std::vector<std::size_t> compared = foremost(search.candidates, options.evidence, most);
   // A fit, or the same with its effect at another place, beside its own scatter.
-  const auto compare = [&](std::size_t index, const FittedExplanation& fit) {
+  const auto compare = [&](std::size_t index, const FittedExplanation& fit, const NoiseScales& from,
+                           int rounds) {
     progress.report("estimating the scatter beside explanations", 0.74);
-    const ScatteredExplanation own = ScatterSearch(campaign, model, noise, discrepancy, options).beside(fit);
+    ScatteredExplanation own =
+        ScatterSearch(campaign, model, noise, discrepancy, options).beside(fit, from, rounds);
     bool better = false;
     for (Candidate& c : search.candidates) {
       const double evidence = c.with_unknown ? own.with_something_else : own.alone;
@@ -126,10 +168,35 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
     if (better && placed_effect(own.fit))
       search.fits[index] =
           fit_explanation(own.fit.hypothesis, model, noise, own.fit.x, options.fit, options.search.threads);
+    return own;
   };
+  const auto untouched_at = [&](const Hypothesis& hypothesis, std::span<const double> x) {
+    FitOptions untouched = options.fit;
+    untouched.max_iterations = 0;
+    return fit_explanation(hypothesis, model, noise, x, untouched, options.search.threads);
+  };
+  const int rounds = options.preparation.scatter_rounds;
+  std::vector<ScatteredExplanation> found;
   for (const std::size_t index : compared) {
     if (progress.cancelled()) return;
-    compare(index, search.fits[index]);
+    found.push_back(compare(index, search.fits[index], noise.believed(), rounds));
+  }
+  // The others beside the scatter of the best, since their own may have led into a dead end: what has all of
+  // its effects and more is no worse.
+  const auto best_found = static_cast<std::size_t>(
+      std::max_element(found.begin(), found.end(),
+                       [](const auto& a, const auto& b) { return a.alone < b.alone; }) -
+      found.begin());
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    if (progress.cancelled()) return;
+    if (i == best_found) continue;
+    const ScatteredExplanation& best = found[best_found];
+    const FittedExplanation& own = found[i].fit;
+    if (has_all_effects_of(own, best.fit))
+      compare(compared[i], untouched_at(own.hypothesis, started_at(own.hypothesis, best.fit)), best.scales,
+              0);
+    else
+      compare(compared[i], own, best.scales, 0);
   }
   // Where the best of them found an effect at work, a part of it may not have looked.
   rank(search.candidates, options.evidence);
@@ -141,8 +208,10 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
   for (const std::size_t index : compared) {
     if (progress.cancelled()) return;
     if (const auto there = at_place_of(campaign, search.fits[index], search.fits[best_fit]))
-      compare(index, fit_explanation(*there, model, noise, search.fits[index].x, options.fit,
-                                     options.search.threads));
+      compare(
+          index,
+          fit_explanation(*there, model, noise, search.fits[index].x, options.fit, options.search.threads),
+          noise.believed(), rounds);
   }
 }
 

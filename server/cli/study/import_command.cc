@@ -17,6 +17,7 @@
 #include "api/files/whole_file.h"
 #include "api/json/faults.h"
 #include "api/report/import_chart.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
 #include "server/cli/terminal/text_table.h"
@@ -47,13 +48,10 @@ std::string drives_words(const api::ImportedCampaign& campaign) {
 
 // Notes on readings that are hard to believe, which are told as warnings that name the mapping's keys.
 void take_out_plausibility_notes(gap::DriveCampaign& read) {
-  std::vector<std::string> all;
-  all.swap(read.notes);
-  gap::note_implausible_readings(read);
-  std::erase_if(all, [&](const std::string& note) {
-    return std::find(read.notes.begin(), read.notes.end(), note) != read.notes.end();
+  const std::vector<std::string> implausible = gap::notes_of_implausible_readings(read);
+  std::erase_if(read.notes, [&](const std::string& note) {
+    return std::find(implausible.begin(), implausible.end(), note) != implausible.end();
   });
-  read.notes = std::move(all);
 }
 
 std::string import_words(const api::ImportedCampaign& campaign, const gap::DriveCampaign& read) {

@@ -5,6 +5,7 @@
 
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/report/report_words.h"
 #include "server/cli/terminal/tables.h"
 #include "server/cli/terminal/text_table.h"
 
@@ -106,10 +107,9 @@ Result<std::string> effect_table(std::string_view document) {
       catalogue_table(document, "effects", {"effect", "what it is", "parameters"}, [](const JsonValue& e) {
         std::string parameters;
         for (const JsonValue& p : at(e, "parameters").elements)
-          parameters +=
-              fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ", text(p, "name"),
-                          number(p, "initial"), number(p, "lowest"), number(p, "highest"),
-                          text(p, "unit") == "1" ? "" : " " + text(p, "unit"));
+          parameters += fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ",
+                                    text(p, "name"), number(p, "initial"), number(p, "lowest"),
+                                    number(p, "highest"), api::unit_words(text(p, "unit")));
         return std::vector<std::string>{text(e, "name"), text(e, "summary"), parameters};
       });
   if (table)
