@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -106,25 +107,28 @@ std::vector<std::size_t> foremost(std::vector<Candidate> candidates, const Evide
   return fits;
 }
 
+bool has_all_effects_of(const FittedExplanation& fit, const FittedExplanation& other) {
+  const auto effects = fit.hypothesis.effects(), of_other = other.hypothesis.effects();
+  return std::all_of(of_other.begin(), of_other.end(), [&](const EffectVariant& o) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const EffectVariant& v) { return v.effect == o.effect; });
+  });
+}
+
 // The first, which has a part of the second's effects, with the effect that acts at a place where the second
 // has it; none where it is there already.
 std::optional<Hypothesis> at_place_of(const DriveCampaign& campaign, const FittedExplanation& fit,
                                       const FittedExplanation& other) {
   const auto own = placed_effect(fit), there = placed_effect(other);
-  if (!own || !there) return std::nullopt;
+  if (!own || !there || !has_all_effects_of(other, fit)) return std::nullopt;
   const auto effects = fit.hypothesis.effects(), of_other = other.hypothesis.effects();
-  const bool part = std::all_of(effects.begin(), effects.end(), [&](const EffectVariant& v) {
-    return std::any_of(of_other.begin(), of_other.end(),
-                       [&](const EffectVariant& o) { return o.effect == v.effect; });
-  });
-  if (!part || effects[*own].label == of_other[*there].label) return std::nullopt;
+  if (effects[*own].label == of_other[*there].label) return std::nullopt;
   std::vector<EffectVariant> moved(effects.begin(), effects.end());
   moved[*own] = of_other[*there];
   return Hypothesis(campaign, moved);
 }
 
-// Where another fit found soils, closures and the effects that both have; what it does not have stays
-// neutral.
+// Where another fit found soils, closures and the effects that both have; what it does not have is neutral.
 std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplanation& other) {
   std::vector<double> start = hypothesis.neutral();
   const auto own = hypothesis.parameters(), there = other.hypothesis.parameters();
@@ -134,13 +138,105 @@ std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplana
   return start;
 }
 
-bool has_all_effects_of(const FittedExplanation& fit, const FittedExplanation& other) {
-  const auto effects = fit.hypothesis.effects(), of_other = other.hypothesis.effects();
-  return std::all_of(of_other.begin(), of_other.end(), [&](const EffectVariant& o) {
-    return std::any_of(effects.begin(), effects.end(),
-                       [&](const EffectVariant& v) { return v.effect == o.effect; });
-  });
-}
+// Lets the foremost explanations of a search compete, each beside its own scatter.
+class ScatterComparison {
+ public:
+  ScatterComparison(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+                    const DiscrepancyTerm& discrepancy, const DiagnosisOptions& options, Progress& progress,
+                    ExplanationSearch& search)
+      : campaign_(campaign),
+        model_(model),
+        noise_(noise),
+        discrepancy_(discrepancy),
+        options_(options),
+        progress_(progress),
+        search_(search),
+        compared_(foremost(search.candidates, options.evidence,
+                           static_cast<std::size_t>(options.search.max_scattered))) {}
+
+  void run() {
+    for (const std::size_t index : compared_) {
+      if (progress_.cancelled()) return;
+      found_.push_back(compare(index, search_.fits[index], noise_.believed(), rounds()));
+    }
+    look_at_best_place();
+    share_best_scales();
+  }
+
+ private:
+  int rounds() const { return options_.preparation.scatter_rounds; }
+
+  // Where the best explanation found an effect at work, what has a part of its effects may not have looked.
+  void look_at_best_place() {
+    rank(search_.candidates, options_.evidence);
+    const auto best =
+        std::find_if(search_.candidates.begin(), search_.candidates.end(),
+                     [&](const Candidate& c) { return placed_effect(search_.fits[c.fit]).has_value(); });
+    if (best == search_.candidates.end()) return;
+    const std::size_t best_fit = best->fit;
+    for (std::size_t i = 0; i < compared_.size() && !progress_.cancelled(); ++i) {
+      const std::vector<double> start = search_.fits[compared_[i]].x;
+      const auto there = at_place_of(campaign_, search_.fits[compared_[i]], search_.fits[best_fit]);
+      if (!there) continue;
+      ScatteredExplanation moved =
+          compare(compared_[i], fitted(*there, start, options_.fit), noise_.believed(), rounds());
+      if (moved.alone > found_[i].alone) found_[i] = std::move(moved);
+    }
+  }
+
+  // The others beside the scatter of the best, since their own may have led into a dead end; what has all of
+  // its effects, or a part of them, from its soils too.
+  void share_best_scales() {
+    const auto less = [](const auto& a, const auto& b) { return a.alone < b.alone; };
+    const ScatteredExplanation& best = *std::max_element(found_.begin(), found_.end(), less);
+    FitOptions untouched = options_.fit;
+    untouched.max_iterations = 0;
+    for (std::size_t i = 0; i < compared_.size() && !progress_.cancelled(); ++i) {
+      const FittedExplanation& own = found_[i].fit;
+      if (&own == &best.fit) continue;
+      const bool whole = has_all_effects_of(own, best.fit), part = has_all_effects_of(best.fit, own);
+      if (!whole) compare(compared_[i], own, best.scales, 0);
+      if (whole || part)
+        compare(compared_[i], fitted(own.hypothesis, started_at(own.hypothesis, best.fit), untouched),
+                best.scales, 0);
+    }
+  }
+
+  // A fit of these explanations, or the same with its effect at another place, beside the scatter that is
+  // searched from these scales in so many rounds. Its candidates keep it where it is the best so far.
+  ScatteredExplanation compare(std::size_t index, const FittedExplanation& fit, const NoiseScales& from,
+                               int rounds) {
+    progress_.report("estimating the scatter beside explanations", 0.74);
+    ScatteredExplanation own =
+        ScatterSearch(campaign_, model_, noise_, discrepancy_, options_).beside(fit, from, rounds);
+    bool better = false;
+    for (Candidate& c : search_.candidates) {
+      const double evidence = c.with_unknown ? own.with_something_else : own.alone;
+      if (c.fit != index || evidence <= c.log_evidence) continue;
+      c.log_evidence = evidence;
+      c.scatter = own.scales;
+      better = better || !c.with_unknown;
+    }
+    if (better && placed_effect(own.fit))
+      search_.fits[index] = fitted(own.fit.hypothesis, own.fit.x, options_.fit);
+    return own;
+  }
+
+  FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start,
+                           const FitOptions& fit) const {
+    return fit_explanation(hypothesis, model_, noise_, start, fit, options_.search.threads);
+  }
+
+  const DriveCampaign& campaign_;
+  const WindowModel& model_;
+  const NoiseModel& noise_;
+  const DiscrepancyTerm& discrepancy_;
+  const DiagnosisOptions& options_;
+  Progress& progress_;
+  ExplanationSearch& search_;
+  std::vector<std::size_t> compared_;  // fits of the search, that of nothing first
+  std::vector<ScatteredExplanation> found_;
+};
 
 }  // namespace
 
@@ -149,70 +245,7 @@ void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& 
                               const DiagnosisOptions& options, Progress& progress,
                               ExplanationSearch& search) {
   if (campaign.reference) return;
-  const auto most = static_cast<std::size_t>(options.search.max_scattered);
-  const std::vector<std::size_t> compared = foremost(search.candidates, options.evidence, most);
-  // A fit, or the same with its effect at another place, beside its own scatter.
-  const auto compare = [&](std::size_t index, const FittedExplanation& fit, const NoiseScales& from,
-                           int rounds) {
-    progress.report("estimating the scatter beside explanations", 0.74);
-    ScatteredExplanation own =
-        ScatterSearch(campaign, model, noise, discrepancy, options).beside(fit, from, rounds);
-    bool better = false;
-    for (Candidate& c : search.candidates) {
-      const double evidence = c.with_unknown ? own.with_something_else : own.alone;
-      if (c.fit != index || evidence <= c.log_evidence) continue;
-      c.log_evidence = evidence;
-      c.scatter = own.scales;
-      better = better || !c.with_unknown;
-    }
-    if (better && placed_effect(own.fit))
-      search.fits[index] =
-          fit_explanation(own.fit.hypothesis, model, noise, own.fit.x, options.fit, options.search.threads);
-    return own;
-  };
-  const auto untouched_at = [&](const Hypothesis& hypothesis, std::span<const double> x) {
-    FitOptions untouched = options.fit;
-    untouched.max_iterations = 0;
-    return fit_explanation(hypothesis, model, noise, x, untouched, options.search.threads);
-  };
-  const int rounds = options.preparation.scatter_rounds;
-  std::vector<ScatteredExplanation> found;
-  for (const std::size_t index : compared) {
-    if (progress.cancelled()) return;
-    found.push_back(compare(index, search.fits[index], noise.believed(), rounds));
-  }
-  // The others beside the scatter of the best, since their own may have led into a dead end: what has all of
-  // its effects and more is no worse.
-  const auto best_found = static_cast<std::size_t>(
-      std::max_element(found.begin(), found.end(),
-                       [](const auto& a, const auto& b) { return a.alone < b.alone; }) -
-      found.begin());
-  for (std::size_t i = 0; i < compared.size(); ++i) {
-    if (progress.cancelled()) return;
-    if (i == best_found) continue;
-    const ScatteredExplanation& best = found[best_found];
-    const FittedExplanation& own = found[i].fit;
-    if (has_all_effects_of(own, best.fit))
-      compare(compared[i], untouched_at(own.hypothesis, started_at(own.hypothesis, best.fit)), best.scales,
-              0);
-    else
-      compare(compared[i], own, best.scales, 0);
-  }
-  // Where the best of them found an effect at work, a part of it may not have looked.
-  rank(search.candidates, options.evidence);
-  const auto best = std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
-    return placed_effect(search.fits[c.fit]).has_value();
-  });
-  if (best == search.candidates.end()) return;
-  const std::size_t best_fit = best->fit;
-  for (const std::size_t index : compared) {
-    if (progress.cancelled()) return;
-    if (const auto there = at_place_of(campaign, search.fits[index], search.fits[best_fit]))
-      compare(
-          index,
-          fit_explanation(*there, model, noise, search.fits[index].x, options.fit, options.search.threads),
-          noise.believed(), rounds);
-  }
+  ScatterComparison(campaign, model, noise, discrepancy, options, progress, search).run();
 }
 
 }  // namespace slipway::gap
