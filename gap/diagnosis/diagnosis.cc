@@ -294,7 +294,7 @@ class Diagnoser {
     d_.held_out = std::move(closure->points);
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
-    withdraw_what_tells_no_better(closure->log_density_gain, d_);
+    withdraw_what_tells_no_better(closure->log_density_gain, options_.verdict, d_);
     doubt_answer(
         {reported_fit(), named_share_, evidence_over_nothing(best(), search_.candidates), furthest_scatter()},
         options_.verdict, d_);

@@ -244,9 +244,9 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
   }
 }
 
-void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d) {
+void withdraw_what_tells_no_better(double log_density_gain, const VerdictOptions& options, Diagnosis& d) {
   const bool names_effects = d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet;
-  if (!names_effects || d.partial || log_density_gain > 0.0) return;
+  if (!names_effects || d.partial || log_density_gain > 0.0 || all_stand(d, options)) return;
   const std::vector<std::string> names = named(d);
   d.verdict = Verdict::kParameters;
   d.reason = fmt::format(

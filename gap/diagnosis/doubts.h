@@ -16,8 +16,9 @@ namespace slipway::gap {
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d);
 
 // Effects with which drives held out of the fit are told no better than re-tuned (their log density gains
-// nothing) are not named, however probable they are on the drives that they were fitted to.
-void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
+// nothing) are not named, however probable they are on the drives that they were fitted to; but those that
+// close most of the gap by the fits' own robust loss are (stands_beside_unknown).
+void withdraw_what_tells_no_better(double log_density_gain, const VerdictOptions& options, Diagnosis& d);
 
 // What is held against an answer besides its probability.
 struct ReportedAnswer {

@@ -331,10 +331,11 @@ TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
 // A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that
 // they were fitted to, and worth nothing on others.
 TEST(Verdict, DoesNotNameWhatTellsHeldOutDrivesNoBetter) {
-  const auto told = [](double log_density_gain, bool partial) {
+  const auto told = [](double log_density_gain, bool partial, double closed_share = 0.4) {
     Diagnosis d = answer_with(Verdict::kEffects, 1.0);
     d.partial = partial;
-    withdraw_what_tells_no_better(log_density_gain, d);
+    d.marginals.front().closed_share = closed_share;
+    withdraw_what_tells_no_better(log_density_gain, {}, d);
     return d;
   };
   EXPECT_EQ(told(8.0, false).effects.size(), 1U);
@@ -344,8 +345,9 @@ TEST(Verdict, DoesNotNameWhatTellsHeldOutDrivesNoBetter) {
   EXPECT_NE(withdrawn.reason.find("hardpan"), std::string::npos) << withdrawn.reason;
   EXPECT_EQ(withdrawn.gap.front().with_effects.value, withdrawn.gap.front().retuned.value);
   EXPECT_EQ(told(-0.5, true).effects.size(), 1U) << "beside something unknown the shares have decided";
+  EXPECT_EQ(told(-4.2, false, 0.9).effects.size(), 1U) << "it closes most of the gap";
   Diagnosis nothing = answer_with(Verdict::kNoGap, 1.0);
-  withdraw_what_tells_no_better(0.0, nothing);
+  withdraw_what_tells_no_better(0.0, {}, nothing);
   EXPECT_EQ(nothing.verdict, Verdict::kNoGap);
 }
 
