@@ -174,6 +174,7 @@ function more(d: Diagnosis): HTMLElement[] {
   if ((d.measurements ?? []).length > 0) parts.push(h("details", {}, h("summary", {}, "What to measure, to see effects that re-tuning hides"), h("ul", {}, d.measurements.map((m) => h("li", {}, `${words(m.effect)}: ${m.measure.join("; ")} (shows by ${number(m.deviations_then, 2)} deviations then, ${number(m.deviations_now, 2)} now)`)))));
   if (d.look_alikes.length > 0) parts.push(h("details", {}, h("summary", {}, "What these drives can't tell apart"), h("ul", {}, d.look_alikes.map((l) => h("li", {}, `${words(l.effect)} looks like ${l.like === "parameters" ? `re-tuned ${(l.parameters ?? []).map(words).join(", ")}` : words(l.like)} (${number(l.angle_deg, 2)}°)`)))));
   if (d.next_drives.length > 0) parts.push(h("details", {}, h("summary", {}, "Drives that would tell most"), table("Next drives", ["Tilt", "Heading", "Speed", "Motors", "Bits"], d.next_drives.map((n) => [`${number(n.tilt_deg)}°`, `${number(n.heading_deg)}°`, `${number(n.speed_m_s)} m/s`, `${number(n.motor_temp_c)} °C`, number(n.expected_information_bits)]))));
+  else if (d.verdict !== "insufficient") parts.push(h("p", { "data-of": "next_drives" }, "No further drive on a plane is expected to tell much more."));
   if (d.notes.length > 0) parts.push(h("details", {}, h("summary", {}, "Notes"), h("ul", {}, d.notes.map((n) => h("li", {}, n)))));
   return parts;
 }
