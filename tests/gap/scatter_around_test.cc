@@ -62,5 +62,30 @@ TEST(ScatterAround, AFitIsThatOfItsOwnModelAndNotOfTheNominalRover) {
       << "rows that a fit does not answer keep what the model was made with";
 }
 
+// A search along one scale after the other in steps of a quarter of a logarithm would stop beside the top.
+TEST(ScatterAround, EstimatedScalesAreTheMostProbableOnes) {
+  const DriveCampaign campaign = some_drives(6);
+  const DiagnosisOptions options;
+  NoProgress progress;
+  const auto prepared = prepare(campaign, options, progress);
+  ASSERT_TRUE(prepared);
+  NoiseModel& noise = *prepared->noise;
+  const LinearProblem problem = unwhitened_problem(*prepared->null, prepared->null->hypothesis.parameters());
+  noise.estimate(problem.residuals, problem.columns);
+  const NoiseScales found = noise.scales();
+  const auto log_probability = [&](const NoiseScales& scales) {
+    noise.set(scales);
+    const Eigen::VectorXd residuals = noise.whiten(problem.residuals);
+    return log_marginal(residuals, noise.whiten(problem.columns)) + noise.log_normalisation();
+  };
+  const double top = log_probability(found);
+  for (int k = 0; k < kNoiseScales; ++k)
+    for (const double step : {-0.1, 0.1}) {
+      NoiseScales beside = found;
+      *numbers_of(beside)[static_cast<std::size_t>(k)] *= std::exp(step);
+      EXPECT_LT(log_probability(beside), top) << kScaleNames[static_cast<std::size_t>(k)] << " " << step;
+    }
+}
+
 }  // namespace
 }  // namespace slipway::gap

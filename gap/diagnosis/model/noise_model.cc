@@ -5,29 +5,24 @@
 #include <cmath>
 
 #include "core/parallel_for.h"
+#include "gap/diagnosis/model/scatter_likelihood.h"
 
 namespace slipway::gap {
 namespace {
 
-using Scales = std::array<double*, kNoiseScales>;
-
-Scales numbers_of(NoiseScales& s) {
-  return {&s.stiffness, &s.friction,  &s.shear_modulus,  &s.within_drives, &s.lean_rad,      &s.load_shift_m,
-          &s.slip,      &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
+// How far the logarithms of scales lie from what is believed of them, in the order of NoiseScales.
+Eigen::VectorXd from_belief(NoiseScales scales, NoiseScales believed) {
+  const auto to = numbers_of(scales), from = numbers_of(believed);
+  Eigen::VectorXd off(kNoiseScales);
+  for (int k = 0; k < kNoiseScales; ++k) off[k] = std::log(*to[k] / *from[k]);
+  return off;
 }
 
-constexpr std::array<std::string_view, kNoiseScales> kScaleNames{"the soil's stiffness",
-                                                                 "the soil's friction",
-                                                                 "the soil's shear modulus",
-                                                                 "the soil within a drive",
-                                                                 "the ground's attitude",
-                                                                 "the centre of load",
-                                                                 "slip",
-                                                                 "side slip",
-                                                                 "yaw rate",
-                                                                 "attitude",
-                                                                 "currents",
-                                                                 "sinkage"};
+NoiseScales moved(NoiseScales scales, const Eigen::VectorXd& step) {
+  const auto numbers = numbers_of(scales);
+  for (int k = 0; k < kNoiseScales; ++k) *numbers[k] *= std::exp(step[k]);
+  return scales;
+}
 
 }  // namespace
 
@@ -150,75 +145,68 @@ double log_marginal(double residual_square, const Eigen::VectorXd& products, Eig
   return -0.5 * (residual_square - explained) - llt.matrixLLT().diagonal().array().log().sum();
 }
 
-double NoiseModel::log_marginal_of(std::span<const Eigen::MatrixXd> own,
-                                   std::vector<Eigen::MatrixXd>& squares, std::size_t threads) const {
-  parallel_for(squares.size(), threads, [&](std::size_t part) {
-    squares[part].setZero(own.front().cols(), own.front().cols());
-    for (std::size_t b = part; b < own.size(); b += squares.size())
-      squares[part].selfadjointView<Eigen::Lower>().rankUpdate(blocks_[b].factor.solve(own[b]).transpose());
-  });
-  for (std::size_t part = 1; part < squares.size(); ++part) squares.front() += squares[part];
-  const Eigen::MatrixXd& sum = squares.front();
-  const Eigen::Index columns = sum.cols() - 1;
-  return log_marginal(sum(0, 0), sum.col(0).tail(columns), sum.bottomRightCorner(columns, columns));
-}
-
 double NoiseModel::log_prior() const {
-  NoiseScales believed = options_.initial, now = scales_;
-  const Scales from = numbers_of(believed), to = numbers_of(now);
-  double sum = 0.0;
-  for (int k = 0; k < kNoiseScales; ++k) sum += std::pow(std::log(*to[k] / *from[k]) / options_.prior_std, 2);
-  return -0.5 * sum;
+  return -0.5 * from_belief(scales_, options_.initial).squaredNorm() /
+         (options_.prior_std * options_.prior_std);
 }
 
 ScaleOffBelief NoiseModel::furthest_above_belief() const {
-  NoiseScales believed = options_.initial, now = scales_;
-  const Scales from = numbers_of(believed), to = numbers_of(now);
-  std::size_t furthest = 0;
-  for (std::size_t k = 1; k < from.size(); ++k) {
-    if (from[k] == &believed.within_drives) continue;  // of the three before it, no scatter of its own
-    if (*to[k] / *from[k] > *to[furthest] / *from[furthest]) furthest = k;
+  Eigen::VectorXd off = from_belief(scales_, options_.initial);
+  off[kWithinScale] = off.minCoeff();  // of the three before it, no scatter of its own
+  Eigen::Index furthest = 0;
+  off.maxCoeff(&furthest);
+  return {kScaleNames[static_cast<std::size_t>(furthest)], std::exp(off[furthest]),
+          off[furthest] / options_.prior_std};
+}
+
+ScatterLikelihood NoiseModel::likelihood_of(const Eigen::VectorXd& residuals,
+                                            const Eigen::MatrixXd& systematic, std::size_t threads) const {
+  std::vector<ScatterLikelihood::Drive> drives;
+  for (const Block& block : blocks_) {
+    ScatterLikelihood::Drive& drive = drives.emplace_back();
+    for (const WindowRows& part : block.windows) {
+      Eigen::MatrixXd columns(static_cast<Eigen::Index>(part.rows.size()), systematic.cols() + 1);
+      columns << residuals(part.rows), systematic(part.rows, Eigen::all);
+      drive.windows.push_back({response_(part.rows, Eigen::all), std::move(columns),
+                               [this, &part](const NoiseScales& s) { return variances_of(part, s); }});
+    }
   }
-  const double times = *to[furthest] / *from[furthest];
-  return {kScaleNames[furthest], times, std::log(times) / options_.prior_std};
+  return ScatterLikelihood(std::move(drives), threads);
 }
 
 void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
                           std::size_t threads) {
   if (blocks_.empty()) return;
-  NoiseScales best = scales_;
-  std::vector<Eigen::MatrixXd> own;
-  for (const Block& block : blocks_) {
-    const std::vector<Eigen::Index> rows = rows_of(block);
-    own.emplace_back(static_cast<Eigen::Index>(rows.size()), systematic.cols() + 1);
-    own.back() << residuals(rows), systematic(rows, Eigen::all);
-  }
-  // As many sums as this whatever the number of threads, so that there is one order of summing.
-  constexpr std::size_t kSums = 8;
-  std::vector<Eigen::MatrixXd> squares(std::min(kSums, blocks_.size()));
-  const auto score = [&](const NoiseScales& scales) {
-    set(scales, threads);
-    return log_marginal_of(own, squares, threads) + log_normalisation();
+  ScatterLikelihood likelihood = likelihood_of(residuals, systematic, threads);
+  const double prior_precision = 1.0 / (options_.prior_std * options_.prior_std);
+  const auto probability = [&](const NoiseScales& scales) {
+    return likelihood.at(scales) -
+           0.5 * prior_precision * from_belief(scales, options_.initial).squaredNorm();
   };
-  double value = score(best);
-  for (const double step : {1.0, 0.5, 0.25}) {
-    for (int sweep = 0; sweep < 3; ++sweep) {
-      bool better = false;
-      for (int k = 0; k < kNoiseScales; ++k) {
-        if (model_.cancelled()) return;
-        for (const double sign : {1.0, -1.0}) {
-          NoiseScales trial = best;
-          *numbers_of(trial)[k] *= std::exp(sign * step);
-          const double v = score(trial);
-          if (v <= value) continue;
-          value = v;
-          best = trial;
-          better = true;
-          break;
-        }
-      }
-      if (!better) break;
+  NoiseScales best = scales_;
+  double value = probability(best);
+  constexpr int kMaxSteps = 30, kMaxHalvings = 6;
+  constexpr double kNoGain = 1e-3;   // of the logarithm of the probability
+  constexpr double kFarthest = 1.0;  // of a scale's logarithm in one step
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const ScatterLikelihood::Slope slope = likelihood.slope();
+    const Eigen::VectorXd gradient = slope.by_scale - prior_precision * from_belief(best, options_.initial);
+    Eigen::MatrixXd information = slope.information;
+    information.diagonal().array() += prior_precision;
+    Eigen::VectorXd step = information.ldlt().solve(gradient);
+    if (0.5 * gradient.dot(step) < kNoGain) break;
+    step *= std::min(1.0, kFarthest / step.cwiseAbs().maxCoeff());
+    bool better = false;
+    for (int halving = 0; halving < kMaxHalvings && !better; ++halving, step *= 0.5) {
+      if (model_.cancelled()) return;
+      const NoiseScales trial = moved(best, step);
+      const double v = probability(trial);
+      if (v <= value) continue;
+      value = v;
+      best = trial;
+      better = true;
     }
+    if (!better) break;
   }
   set(best, threads);
 }

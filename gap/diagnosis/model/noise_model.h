@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -10,23 +9,12 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "gap/diagnosis/model/block_cholesky.h"
+#include "gap/diagnosis/model/noise_scales.h"
 #include "gap/diagnosis/model/window_model.h"
 
 namespace slipway::gap {
 
-// What makes drives of the same kind differ, besides the sensors: the soil of each drive and each of its
-// windows, and what the model leaves over in every window. One standard deviation each.
-struct NoiseScales {
-  // Of each drive's soil around the campaign's: logarithms of stiffness, tan(friction angle), shear modulus.
-  double stiffness = 0.1, friction = 0.02, shear_modulus = 0.1;
-  double within_drives = 0.7;  // of the same from window to window, over that from drive to drive
-  // Of each window, for what the map's detail does: the attitude under which weights act, the centre of load.
-  double lean_rad = 0.002, load_shift_m = 0.003;
-  double slip = 0.004, side_slip = 0.004, yaw_rate_rad_s = 0.0002, attitude_rad = 0.003;
-  double current_share = 0.01;  // of the current
-  double sinkage_m = 0.0005;
-};
-constexpr int kNoiseScales = 12;
+class ScatterLikelihood;
 
 // A scale that drives asked for, beside what was believed of it.
 struct ScaleOffBelief {
@@ -96,11 +84,10 @@ class NoiseModel {
     BlockCholesky factor;             // L
   };
   static std::vector<Eigen::Index> rows_of(const Block& block);
+  // Of all blocks, for these residuals and systematic columns.
+  ScatterLikelihood likelihood_of(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
+                                  std::size_t threads) const;
   void factor(Block& block);  // by the scales
-  // log_marginal of residuals (the first column) beside the other columns, of each block's rows. `squares`
-  // holds the sums of the columns' products, one at least, and is kept from call to call for its memory.
-  double log_marginal_of(std::span<const Eigen::MatrixXd> own, std::vector<Eigen::MatrixXd>& squares,
-                         std::size_t threads) const;
   // Of sensors and of what is left over.
   Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;
 

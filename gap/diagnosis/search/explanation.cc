@@ -49,13 +49,6 @@ class SimulatedDrives : public FittedModel {
   std::vector<bool> stood_;  // of each observation: its window is censored
 };
 
-// The null's parameters with an effect's neutral ones behind.
-std::vector<double> extended(const Hypothesis& hypothesis, std::span<const double> x) {
-  std::vector<double> start = hypothesis.neutral();
-  std::copy(x.begin(), x.end(), start.begin());
-  return start;
-}
-
 // Where on stronger soils the model answers rows that it does not at the fit, a few steps of friction away.
 std::optional<std::vector<double>> where_it_answers(const SimulatedDrives& drives,
                                                     const Hypothesis& hypothesis, const PosteriorMode& mode,
@@ -85,10 +78,19 @@ void leave_open(const WindowModel& model, const NoiseModel& noise, FittedExplana
 
 }  // namespace
 
+std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplanation& other) {
+  std::vector<double> start = hypothesis.neutral();
+  const auto own = hypothesis.parameters(), there = other.hypothesis.parameters();
+  for (std::size_t p = 0; p < own.size(); ++p)
+    for (std::size_t q = 0; q < there.size(); ++q)
+      if (own[p].name == there[q].name) start[p] = other.x[q];
+  return start;
+}
+
 Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowModel& model,
                                   const FittedExplanation& fit, std::vector<double>& start,
                                   std::span<const double> predicted) {
-  start = extended(hypothesis, fit.x);
+  start = started_at(hypothesis, fit);
   const auto parameters = hypothesis.parameters();
   const std::size_t from = fit.x.size();
   const auto rows = static_cast<Eigen::Index>(model.observation_count());

@@ -29,6 +29,9 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
                                   const FitOptions& options, std::size_t threads,
                                   const std::vector<bool>& fitted_rows = {});
 
+// Where another fit found what both have, by name; what it does not have is neutral.
+std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplanation& other);
+
 // Derivatives of every observation, by prior deviations, of the effects that a hypothesis has more than a
 // fit, at the fit's parameters, which `start` becomes with the added effects' neutral ones behind. The second
 // are whitened, rows weighed as in the fit. `predicted`: what the fit predicts, of which the neutral effects

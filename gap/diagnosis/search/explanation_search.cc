@@ -148,11 +148,8 @@ class Searcher {
       const auto effects = best->hypothesis.effects();
       const auto own = std::find_if(effects.begin(), effects.end(),
                                     [&](const EffectVariant& v) { return v.effect == effect; });
-      std::vector<double> start;
-      for (std::size_t p = 0; p < best->x.size(); ++p)
-        if (const std::string& of = best->hypothesis.parameters()[p].effect; of.empty() || of == effect)
-          start.push_back(best->x[p]);
-      keep_better(fit, fitted(Hypothesis(campaign_, {*own}), start));
+      const Hypothesis alone(campaign_, {*own});
+      keep_better(fit, fitted(alone, started_at(alone, *best)));
     }
   }
 

@@ -128,16 +128,6 @@ std::optional<Hypothesis> at_place_of(const DriveCampaign& campaign, const Fitte
   return Hypothesis(campaign, moved);
 }
 
-// Where another fit found soils, closures and the effects that both have; what it does not have is neutral.
-std::vector<double> started_at(const Hypothesis& hypothesis, const FittedExplanation& other) {
-  std::vector<double> start = hypothesis.neutral();
-  const auto own = hypothesis.parameters(), there = other.hypothesis.parameters();
-  for (std::size_t p = 0; p < own.size(); ++p)
-    for (std::size_t q = 0; q < there.size(); ++q)
-      if (own[p].name == there[q].name) start[p] = other.x[q];
-  return start;
-}
-
 // Lets the foremost explanations of a search compete, each beside its own scatter.
 class ScatterComparison {
  public:
