@@ -178,6 +178,23 @@ void judge_effects(const ExplanationSearch& search, const Naming& naming, double
   if (rival != nullptr) d.overturned_by = next_best(*rival);
 }
 
+// Something of no known form, alone, of which drives without anything amiss show as much.
+bool may_be_chance(const Candidate& chosen, const ExplanationSearch& search, const VerdictOptions& options) {
+  return chosen.with_unknown && chosen.effects.empty() &&
+         evidence_over_nothing(chosen, search.candidates) < options.min_unknown_evidence;
+}
+
+void judge_chance(const ExplanationSearch& search, const Candidate& chosen, double unknown,
+                  const VerdictOptions& options, Diagnosis& d) {
+  d.least_detectable = least_detectable_of(search.screened, options);
+  d.verdict = Verdict::kNotDetected;
+  d.reason = fmt::format(
+      "no gap was surely found: something unknown has a probability of {:.2f}, by a log evidence of {:.1f}, "
+      "and drives without a gap reach {:.0f}",
+      unknown, evidence_over_nothing(chosen, search.candidates), options.min_unknown_evidence);
+  d.overturned_by = "more drives, which show what is there more clearly";
+}
+
 void judge_unknown(const ExplanationSearch& search, std::size_t best, double unknown, Diagnosis& d) {
   d.verdict = Verdict::kUnknown;
   d.reason =
@@ -261,7 +278,9 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   const double probability = sets[key_of(chosen)];
   if (search.candidates[naming.chosen].unknown())
     d.outside = outside_finding(search, naming.chosen, campaign);
-  if (chosen.unknown() && !naming.partial) {
+  if (may_be_chance(chosen, search, options.verdict)) {
+    judge_chance(search, chosen, unknown, options.verdict, d);
+  } else if (chosen.unknown() && !naming.partial) {
     judge_unknown(search, naming.chosen, unknown, d);
   } else if (naming.effects.empty()) {
     judge_without_effects(campaign, prepared, search, chosen, probability, options, d);

@@ -45,8 +45,62 @@ TEST(DiscrepancyGain, AveragesTheEvidenceOverTheSizes) {
   for (const double residual : {0.0, 2.0, 5.0}) {
     const DiscrepancyGain gain = discrepancy_gain(fit_leaving(residual), kTerm, kNoForm, options, never);
     EXPECT_NEAR(gain.imprecision, mean_of(residual, {0.02, 0.1, 0.2}), 1e-12) << residual;
-    EXPECT_NEAR(gain.something_else, mean_of(residual, {0.5, 1.0, 4.0}), 1e-12) << residual;
+    std::vector<double> single;
+    for (const double share : {0.02, 0.1, 0.2})
+      for (const double size : {0.5, 1.0, 4.0}) single.push_back(std::hypot(share, size));
+    const double either =
+        0.5 * std::exp(mean_of(residual, {0.5, 1.0, 4.0})) + 0.5 * std::exp(mean_of(residual, single));
+    EXPECT_NEAR(gain.something_else, std::log(either), 1e-12) << residual;
   }
+}
+
+// One column of many that explains what is left is more probable than all of them at once.
+TEST(DiscrepancyGain, FindsWhatEntersAtOnePoint) {
+  constexpr Eigen::Index kRows = 400, kColumns = 100;
+  PosteriorMode fit;
+  fit.white_jacobian = testing::random_matrix(kRows, 1, 1000);
+  const Eigen::MatrixXd term = testing::random_matrix(kRows, kColumns, 2000);
+  fit.white_linear = testing::random_matrix(kRows, 1, 3000);
+  const DiscrepancyGain none = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), {}, never);
+  EXPECT_LT(none.something_else, none.imprecision);
+  fit.white_linear += 0.6 * term.col(40);
+  DiscrepancyOptions options;
+  const DiscrepancyGain one = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
+  EXPECT_GT(one.something_else, one.imprecision + 5.0);
+  const DiscrepancyEstimate found = estimate_discrepancy(fit, term, options, never);
+  Eigen::Index largest = 0;
+  found.mean.cwiseAbs().maxCoeff(&largest);
+  EXPECT_EQ(largest, 40);
+  EXPECT_NEAR(found.mean[40], 0.6, 3.0 * found.error[40]);
+  options.single_share = 0.0;
+  const DiscrepancyGain all = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
+  EXPECT_LT(all.something_else, all.imprecision) << "all at once are too many for it";
+}
+
+// What one column more of the covariance does is found in closed form.
+TEST(DiscrepancyGain, OfASingleColumnIsThatOfItsCovariance) {
+  constexpr Eigen::Index kRows = 30;
+  PosteriorMode fit;
+  fit.white_jacobian = testing::random_matrix(kRows, 2, 1000);
+  fit.white_linear = 2.0 * testing::random_matrix(kRows, 1, 3000);
+  const Eigen::MatrixXd term = testing::random_matrix(kRows, 3, 2000);
+  DiscrepancyOptions options;
+  options.sizes = {0.7, 0.7, 0.7};
+  options.imprecision_shares = {1.0, 1.0, 1.0};
+  options.single_share = 1.0;
+  const LinearProblem linear = linear_problem(fit);
+  double sum = 0.0;
+  for (Eigen::Index c = 0; c < term.cols(); ++c) {
+    Eigen::Vector3d size = Eigen::Vector3d::Constant(options.imprecision);
+    size[c] = std::hypot(options.imprecision, 0.7);
+    Eigen::MatrixXd columns(kRows, linear.columns.cols() + term.cols());
+    columns << linear.columns, term * size.asDiagonal();
+    sum +=
+        std::exp(log_marginal(linear.residuals, columns) - log_marginal(linear.residuals, linear.columns)) /
+        static_cast<double>(term.cols());
+  }
+  const DiscrepancyGain gain = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
+  EXPECT_NEAR(gain.something_else, std::log(sum), 1e-9);
 }
 
 TEST(DiscrepancyGain, IsALossWhereNothingIsMissingAndAGainWhereMuchIs) {
@@ -83,6 +137,7 @@ TEST(ColumnsBeside, HaveTheTermAtItsMostProbableSize) {
 TEST(EstimateDiscrepancy, IsThePosteriorOfACoefficient) {
   DiscrepancyOptions options;
   options.sizes = {2.0, 2.0, 2.0};
+  options.imprecision = 0.0;
   const DiscrepancyEstimate found = estimate_discrepancy(fit_leaving(5.0), kTerm, options, never);
   ASSERT_EQ(found.mean.size(), 1);
   EXPECT_NEAR(found.mean[0], 4.0 / 5.0 * 5.0, 1e-12) << "s^2 / (1 + s^2) r";

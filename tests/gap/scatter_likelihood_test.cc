@@ -31,10 +31,10 @@ std::vector<ScatterLikelihood::Drive> some_drives(int drives, int windows) {
   std::vector<ScatterLikelihood::Drive> made(static_cast<std::size_t>(drives));
   std::uint64_t seed = 1;
   for (ScatterLikelihood::Drive& drive : made) {
-    for (int w = 0; w < windows; ++w, seed += 2) {
-      const Eigen::Index n = 4 + static_cast<Eigen::Index>(seed) % 3;
+    for (int w = 0; w < windows; ++w, seed += 20) {
+      const Eigen::Index n = 4 + w % 3;
       Eigen::MatrixXd response = 0.1 * random_matrix(n, kResponses, seed);
-      const Eigen::MatrixXd columns = 0.02 * random_matrix(n, 1 + kSystematic, seed + 1);
+      const Eigen::MatrixXd columns = 0.02 * random_matrix(n, 1 + kSystematic, seed + 10);
       drive.windows.push_back({response, columns, [n](const NoiseScales& s) { return variances(s, n); }});
     }
   }

@@ -137,6 +137,24 @@ Diagnosis answer_with(Verdict verdict, double least_left, const std::string& eff
   return d;
 }
 
+// Healthy drives have columns of a discrepancy term that fit them a little better, too.
+TEST(Verdict, IsNotDetectedWhereSomethingUnknownMayBeChance) {
+  DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
+  campaign.soils.resize(1);
+  const DiagnosisOptions options;
+  for (const double beyond : {-0.5, 0.5}) {
+    ExplanationSearch search;
+    search.fits.push_back({{}, Hypothesis(campaign, {})});
+    search.candidates = {candidate({}, 0.6, true), candidate({}, 0.4)};
+    search.candidates[0].log_evidence = options.verdict.min_unknown_evidence + beyond;
+    Diagnosis d;
+    judge(campaign, {}, search, {}, options, d);
+    EXPECT_EQ(d.verdict, beyond < 0.0 ? Verdict::kNotDetected : Verdict::kUnknown);
+    EXPECT_NE(d.reason.find("0.60"), std::string::npos) << d.reason;
+  }
+}
+
 TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   DriveCampaign campaign;
   campaign.soils.resize(1);

@@ -89,11 +89,12 @@ void list_fit(const FitOptions& options, Lister& list) {
 
 void list_discrepancy(const DiscrepancyOptions& options, Lister& list) {
   list.step("discrepancy");
-  const auto& [sizes, imprecision, imprecision_shares, form_imprecision, form_sizes, tilt_deg, load_shift_m,
-               steering_deg, slip_reading, side_slip_reading, yaw_rate_rad_s, attitude_rad, current_share,
-               sinkage_m, pitch_deg, roll_deg, slip, curvature_1_m, temperature_c] = options;
+  const auto& [sizes, single_share, imprecision, imprecision_shares, form_imprecision, form_sizes, tilt_deg,
+               load_shift_m, steering_deg, slip_reading, side_slip_reading, yaw_rate_rad_s, attitude_rad,
+               current_share, sinkage_m, pitch_deg, roll_deg, slip, curvature_1_m, temperature_c] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(imprecision);
+  SLIPWAY_FIELD(single_share);
   SLIPWAY_FIELD(imprecision_shares);
   SLIPWAY_FIELD(form_imprecision);
   SLIPWAY_FIELD(form_sizes);
@@ -196,11 +197,11 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               max_soil_shift, max_closure_shift, max_stand_in_shift, rival_share, min_doubt,
-               determined_share, max_angle_deg, min_signature, max_unexplained_shapes, name_by_marginals,
-               min_closed_share, min_named_share, strong_evidence, min_share_of_law, min_share_of_rest,
-               min_partial_probability, min_partial_share, min_probability_beside_form, min_share_beside_form,
-               min_probability_closing_most] = options;
+               min_unknown_evidence, max_soil_shift, max_closure_shift, max_stand_in_shift, rival_share,
+               min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
+               name_by_marginals, min_closed_share, min_named_share, strong_evidence, min_share_of_law,
+               min_share_of_rest, min_partial_probability, min_partial_share, min_probability_beside_form,
+               min_share_beside_form, min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -212,6 +213,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_left_beside_effects);
   SLIPWAY_FIELD(forgiven_closure);
   SLIPWAY_FIELD(max_scatter);
+  SLIPWAY_FIELD(min_unknown_evidence);
   SLIPWAY_FIELD(max_soil_shift);
   SLIPWAY_FIELD(max_closure_shift);
   SLIPWAY_FIELD(max_stand_in_shift);

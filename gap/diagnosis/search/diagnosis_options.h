@@ -52,6 +52,9 @@ struct DiscrepancyOptions {
   // Sizes of the term as something else, in units of its columns: weak, plain, strong; a factor of three
   // apart, so that the best of them is never far off. The evidence is averaged over them.
   std::array<double, 3> sizes{0.4, 1.2, 3.6};
+  // How probable it is that something else enters at one point by one circumstance, and not at all points by
+  // all of them at once: most that goes wrong with a rover does one thing.
+  double single_share = 0.5;
   // No simulator is exact: the term stands beside every explanation up to this size, and only more than that
   // is something else.
   double imprecision = 0.1;
@@ -177,6 +180,8 @@ struct VerdictOptions {
   // Prior deviations by which a scale of the drives' own scatter may be above what was believed of it,
   // without a reference (6.8 times); beyond them it hides something. Healthy campaigns came to 0.6 at most.
   double max_scatter = 1.6;
+  // Of something of no known form, alone, the log evidence over nothing below which it may be chance.
+  double min_unknown_evidence = 4.0;
   // Usual prior deviations by which a soil may be off what was believed of it beside named effects, all of
   // its parameters and the ratio of its shear moduli together, without a reference. A cause that the library
   // lacks bends soils to a name that is not its own; of 115 right answers 4 came to more, 3 of them a patch.

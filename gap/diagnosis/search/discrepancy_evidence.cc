@@ -1,66 +1,140 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "gap/diagnosis/search/discrepancy_term.h"
 
 namespace slipway::gap {
 namespace {
 
-Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white, double size) {
-  Eigen::MatrixXd columns(known.rows(), known.cols() + white.cols());
-  columns << known, size * white;
+Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& more) {
+  Eigen::MatrixXd columns(known.rows(), known.cols() + more.cols());
+  columns << known, more;
   return columns;
 }
+
+// Deviations of the coefficients of a form and a term: one each, and of one of the term's columns so much
+// more.
+struct Sizes {
+  double form = 0.0, term = 0.0;
+  Eigen::Index single = -1;  // none
+  double single_size = 0.0;
+
+  Eigen::VectorXd of_term(Eigen::Index columns) const {
+    Eigen::VectorXd sizes = Eigen::VectorXd::Constant(columns, term);
+    if (single >= 0) sizes[single] = std::hypot(term, single_size);
+    return sizes;
+  }
+};
 
 // log_marginal of a fit's residuals beside its columns, those of the form and those of the term, by the sizes
 // of the latter two: products of columns are taken once for all sizes.
 class SizedMarginal {
  public:
   SizedMarginal(const LinearProblem& fit, const Eigen::MatrixXd& form, const Eigen::MatrixXd& term)
-      : known_(fit.columns.cols()), form_(form.cols()), residual_square_(fit.residuals.squaredNorm()) {
-    Eigen::MatrixXd all(fit.columns.rows(), known_ + form_ + term.cols());
-    all << fit.columns, form, term;
+      : known_(fit.columns.cols()),
+        form_(form.cols()),
+        term_(term.cols()),
+        residual_square_(fit.residuals.squaredNorm()) {
+    const Eigen::MatrixXd all = both(both(fit.columns, form), term);
     squares_ = Eigen::MatrixXd::Zero(all.cols(), all.cols());
     squares_.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
+    squares_.triangularView<Eigen::StrictlyUpper>() = squares_.transpose();
     products_ = all.transpose() * fit.residuals;
   }
 
   double operator()(double form_size, double term_size) const {
-    Eigen::VectorXd size = Eigen::VectorXd::Constant(squares_.cols(), term_size);
-    size.head(known_).setOnes();
-    size.segment(known_, form_).setConstant(form_size);
+    const Eigen::VectorXd size = sizes(form_size, term_size);
     return log_marginal(residual_square_, size.cwiseProduct(products_),
                         size.asDiagonal() * squares_ * size.asDiagonal());
   }
 
+  // By how much the above rises where one column of the term has so much more: columns x more. A column adds
+  // a rank to the covariance, which has a closed form.
+  Eigen::MatrixXd with_single(double form_size, double term_size, std::span<const double> more) const {
+    const Eigen::VectorXd size = sizes(form_size, term_size);
+    Eigen::MatrixXd inner = size.asDiagonal() * squares_ * size.asDiagonal();
+    inner.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(inner);
+    const Eigen::MatrixXd taken = llt.matrixL().solve(size.asDiagonal() * squares_.rightCols(term_));
+    const Eigen::VectorXd taken_products = llt.matrixL().solve(size.cwiseProduct(products_));
+    const Eigen::ArrayXd square = squares_.diagonal().tail(term_) - taken.colwise().squaredNorm().transpose();
+    const Eigen::ArrayXd product = products_.tail(term_) - taken.transpose() * taken_products;
+    Eigen::MatrixXd gains(term_, static_cast<Eigen::Index>(more.size()));
+    for (std::size_t m = 0; m < more.size(); ++m) {
+      const Eigen::ArrayXd variance = more[m] * more[m] * square;
+      gains.col(static_cast<Eigen::Index>(m)) =
+          0.5 * more[m] * more[m] * product.square() / (1.0 + variance) - 0.5 * variance.log1p();
+    }
+    return gains;
+  }
+
  private:
-  Eigen::Index known_, form_;
+  Eigen::VectorXd sizes(double form_size, double term_size) const {
+    Eigen::VectorXd size = Eigen::VectorXd::Constant(squares_.cols(), term_size);
+    size.head(known_).setOnes();
+    size.segment(known_, form_).setConstant(form_size);
+    return size;
+  }
+
+  Eigen::Index known_, form_, term_;
   double residual_square_;
-  Eigen::MatrixXd squares_;  // the lower half
+  Eigen::MatrixXd squares_;
   Eigen::VectorXd products_;
 };
 
-// Every size of form and term; `take` gets whether the term's is that of something else, and says whether to
-// go on.
-void for_sizes(bool has_form, const DiscrepancyOptions& options,
-               const std::function<bool(bool, double, double)>& take) {
+// Three ways in which a term may stand beside an explanation.
+enum class Way {
+  kImprecision,
+  kSingle,  // something else that enters at one point by one circumstance, beside the imprecision
+  kSmooth   // something else at all points by all circumstances at once
+};
+
+// The log marginals of every way and size; `take` says whether to go on.
+void for_sizes(const SizedMarginal& marginal, bool has_form, const DiscrepancyOptions& options,
+               const std::function<bool(Way, const Sizes&, double)>& take) {
   for (const double exact : options.form_sizes) {
     if (exact > 0.0 && !has_form) continue;
-    for (const double share : options.imprecision_shares)
-      if (!take(false, exact, share * options.imprecision)) return;
+    for (const double share : options.imprecision_shares) {
+      Sizes sizes{exact, share * options.imprecision};
+      const double imprecise = marginal(sizes.form, sizes.term);
+      if (!take(Way::kImprecision, sizes, imprecise)) return;
+      const Eigen::MatrixXd gains = marginal.with_single(sizes.form, sizes.term, options.sizes);
+      for (Eigen::Index m = 0; m < gains.cols(); ++m)
+        for (sizes.single = 0; sizes.single < gains.rows(); ++sizes.single) {
+          sizes.single_size = options.sizes[static_cast<std::size_t>(m)];
+          if (!take(Way::kSingle, sizes, imprecise + gains(sizes.single, m))) return;
+        }
+    }
     for (const double size : options.sizes)
-      if (!take(true, exact, size)) return;
+      if (!take(Way::kSmooth, {exact, size}, marginal(exact, size))) return;
   }
 }
 
 // log of the mean of exp(values).
 double log_mean_exp(const std::vector<double>& values) {
+  if (values.empty()) return -std::numeric_limits<double>::infinity();
   const double most = *std::max_element(values.begin(), values.end());
   double sum = 0.0;
   for (const double v : values) sum += std::exp(v - most);
   return most + std::log(sum / static_cast<double>(values.size()));
+}
+
+// Of something else, or of imprecision, the sizes with the most evidence.
+Sizes most_probable(const SizedMarginal& marginal, bool has_form, bool something_else,
+                    const DiscrepancyOptions& options, const Cancelled& cancelled) {
+  Sizes best;
+  double most = -std::numeric_limits<double>::infinity();
+  for_sizes(marginal, has_form, options, [&](Way way, const Sizes& sizes, double value) {
+    if ((way != Way::kImprecision) != something_else || value <= most) return !cancelled();
+    most = value;
+    best = sizes;
+    return !cancelled();
+  });
+  return best;
 }
 
 }  // namespace
@@ -71,14 +145,17 @@ DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd
   if (cancelled()) return {};
   const SizedMarginal marginal(linear_problem(fit), form, term);
   const double without = marginal(0.0, 0.0);
-  std::vector<double> imprecise, other;
-  for_sizes(form.cols() > 0, options, [&](bool something_else, double exact, double size) {
-    if (cancelled()) return false;
-    (something_else ? other : imprecise).push_back(marginal(exact, size));
-    return true;
+  std::array<std::vector<double>, 3> values;
+  for_sizes(marginal, form.cols() > 0, options, [&](Way way, const Sizes&, double value) {
+    values[static_cast<std::size_t>(way)].push_back(value);
+    return !cancelled();
   });
   if (cancelled()) return {};
-  return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
+  const auto mean = [&](Way way) { return log_mean_exp(values[static_cast<std::size_t>(way)]) - without; };
+  const double single = mean(Way::kSingle) + std::log(options.single_share);
+  const double smooth = mean(Way::kSmooth) + std::log1p(-options.single_share);
+  const double most = std::max(single, smooth);
+  return {mean(Way::kImprecision), most + std::log(std::exp(single - most) + std::exp(smooth - most))};
 }
 
 DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowModel& model,
@@ -95,19 +172,9 @@ Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& 
                                const DiscrepancyOptions& options, const Cancelled& cancelled) {
   if (cancelled()) return fit.white_jacobian;
   const LinearProblem linear = linear_problem(fit);
-  const SizedMarginal marginal(linear, form, term);
-  double most = -std::numeric_limits<double>::infinity(), best_exact = 0.0, best_size = 0.0;
-  for_sizes(form.cols() > 0, options, [&](bool else_too, double exact, double size) {
-    if (cancelled()) return false;
-    if (else_too != something_else) return true;
-    if (const double value = marginal(exact, size); value > most) {
-      most = value;
-      best_exact = exact;
-      best_size = size;
-    }
-    return true;
-  });
-  return both(both(linear.columns, form, best_exact), term, best_size);
+  const Sizes best =
+      most_probable(SizedMarginal(linear, form, term), form.cols() > 0, something_else, options, cancelled);
+  return both(both(linear.columns, best.form * form), term * best.of_term(term.cols()).asDiagonal());
 }
 
 double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
@@ -128,15 +195,18 @@ double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
 
 DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
                                          const DiscrepancyOptions& options, const Cancelled& cancelled) {
-  const double size = most_probable_size(fit, term, options.sizes, cancelled);
   const LinearProblem linear = linear_problem(fit);
-  const Eigen::MatrixXd columns = both(linear.columns, term, size);
+  const Eigen::VectorXd size = most_probable(SizedMarginal(linear, Eigen::MatrixXd(term.rows(), 0), term),
+                                             false, true, options, cancelled)
+                                   .of_term(term.cols());
+  const Eigen::MatrixXd columns = both(linear.columns, term * size.asDiagonal());
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
   const Eigen::VectorXd all = factor.solve(columns.transpose() * linear.residuals);
   const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
-  return {size * all.tail(term.cols()), size * covariance.diagonal().tail(term.cols()).cwiseSqrt()};
+  return {size.cwiseProduct(all.tail(term.cols())),
+          size.cwiseProduct(covariance.diagonal().tail(term.cols()).cwiseSqrt())};
 }
 
 }  // namespace slipway::gap
