@@ -57,9 +57,12 @@ std::vector<EffectVariant> levers(const DiscrepancyOptions& options) {
 }
 
 // A force that keeps its direction on the map and what changes over the hours could enter at some points
-// only. The other circumstances go with every entry.
+// only; a stiffness that is off throughout is a re-tuned parameter. The other circumstances go with every
+// entry.
 bool may_depend(Entry entry, Circumstance circumstance) {
   switch (circumstance) {
+    case Circumstance::kConstant:
+      return entry != Entry::kPressureSinkage;
     case Circumstance::kEast:
     case Circumstance::kNorth:
       return entry == Entry::kTangentialForce || entry == Entry::kLateralForce;
