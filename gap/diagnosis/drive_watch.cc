@@ -68,7 +68,7 @@ Changes changes_of(const DriveCampaign& campaign, const PreparedCampaign& prepar
         columns[v]);
   const DiscrepancyTerm term =
       make_discrepancy_term(campaign, *prepared.model, fit, options.discrepancy, options.search.threads);
-  const Eigen::MatrixXd white = whitened(fit, *prepared.noise, term);
+  const Eigen::MatrixXd white = whitened(fit, *prepared.noise, term).columns;
   std::map<std::pair<Entry, int>, std::vector<Eigen::Index>> entries;
   for (std::size_t c = 0; c < term.columns.size(); ++c) {
     const DiscrepancyTerm::Column& column = term.columns[c];

@@ -190,7 +190,7 @@ void judge_chance(const ExplanationSearch& search, const Candidate& chosen, doub
   d.verdict = Verdict::kNotDetected;
   d.reason = fmt::format(
       "no gap was surely found: something unknown has a probability of {:.2f}, by a log evidence of {:.1f}, "
-      "and drives without a gap reach {:.0f}",
+      "of which less than {:.0f} may be chance",
       unknown, evidence_over_nothing(chosen, search.candidates), options.min_unknown_evidence);
   d.overturned_by = "more drives, which show what is there more clearly";
 }

@@ -34,8 +34,14 @@ double mean_of(double residual, const std::vector<double>& sizes) {
   return std::log(sum / static_cast<double>(sizes.size()));
 }
 
-const Eigen::MatrixXd kTerm = Eigen::Vector3d(1.0, 0.0, 0.0);
+const WhiteTerm kTerm{Eigen::Vector3d(1.0, 0.0, 0.0), {0}};
 const Eigen::MatrixXd kNoForm(3, 0);
+
+WhiteTerm all_may_be_single(Eigen::MatrixXd columns) {
+  WhiteTerm term{std::move(columns), {}};
+  for (Eigen::Index c = 0; c < term.columns.cols(); ++c) term.single.push_back(c);
+  return term;
+}
 
 TEST(DiscrepancyGain, AveragesTheEvidenceOverTheSizes) {
   DiscrepancyOptions options;
@@ -59,11 +65,11 @@ TEST(DiscrepancyGain, FindsWhatEntersAtOnePoint) {
   constexpr Eigen::Index kRows = 400, kColumns = 100;
   PosteriorMode fit;
   fit.white_jacobian = testing::random_matrix(kRows, 1, 1000);
-  const Eigen::MatrixXd term = testing::random_matrix(kRows, kColumns, 2000);
+  const WhiteTerm term = all_may_be_single(testing::random_matrix(kRows, kColumns, 2000));
   fit.white_linear = testing::random_matrix(kRows, 1, 3000);
   const DiscrepancyGain none = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), {}, never);
   EXPECT_LT(none.something_else, none.imprecision);
-  fit.white_linear += 0.6 * term.col(40);
+  fit.white_linear += 0.6 * term.columns.col(40);
   DiscrepancyOptions options;
   const DiscrepancyGain one = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
   EXPECT_GT(one.something_else, one.imprecision + 5.0);
@@ -72,6 +78,11 @@ TEST(DiscrepancyGain, FindsWhatEntersAtOnePoint) {
   found.mean.cwiseAbs().maxCoeff(&largest);
   EXPECT_EQ(largest, 40);
   EXPECT_NEAR(found.mean[40], 0.6, 3.0 * found.error[40]);
+  WhiteTerm throughout = term;
+  throughout.single.erase(throughout.single.begin() + 40);
+  EXPECT_LT(discrepancy_gain(fit, throughout, Eigen::MatrixXd(kRows, 0), options, never).something_else,
+            one.something_else - 5.0)
+      << "what is off throughout is not something else";
   options.single_share = 0.0;
   const DiscrepancyGain all = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
   EXPECT_LT(all.something_else, all.imprecision) << "all at once are too many for it";
@@ -83,21 +94,21 @@ TEST(DiscrepancyGain, OfASingleColumnIsThatOfItsCovariance) {
   PosteriorMode fit;
   fit.white_jacobian = testing::random_matrix(kRows, 2, 1000);
   fit.white_linear = 2.0 * testing::random_matrix(kRows, 1, 3000);
-  const Eigen::MatrixXd term = testing::random_matrix(kRows, 3, 2000);
+  const WhiteTerm term = all_may_be_single(testing::random_matrix(kRows, 3, 2000));
   DiscrepancyOptions options;
   options.sizes = {0.7, 0.7, 0.7};
   options.imprecision_shares = {1.0, 1.0, 1.0};
   options.single_share = 1.0;
   const LinearProblem linear = linear_problem(fit);
   double sum = 0.0;
-  for (Eigen::Index c = 0; c < term.cols(); ++c) {
+  for (Eigen::Index c = 0; c < term.columns.cols(); ++c) {
     Eigen::Vector3d size = Eigen::Vector3d::Constant(options.imprecision);
     size[c] = std::hypot(options.imprecision, 0.7);
-    Eigen::MatrixXd columns(kRows, linear.columns.cols() + term.cols());
-    columns << linear.columns, term * size.asDiagonal();
+    Eigen::MatrixXd columns(kRows, linear.columns.cols() + term.columns.cols());
+    columns << linear.columns, term.columns * size.asDiagonal();
     sum +=
         std::exp(log_marginal(linear.residuals, columns) - log_marginal(linear.residuals, linear.columns)) /
-        static_cast<double>(term.cols());
+        static_cast<double>(term.columns.cols());
   }
   const DiscrepancyGain gain = discrepancy_gain(fit, term, Eigen::MatrixXd(kRows, 0), options, never);
   EXPECT_NEAR(gain.something_else, std::log(sum), 1e-9);
@@ -114,7 +125,7 @@ TEST(DiscrepancyGain, IsALossWhereNothingIsMissingAndAGainWhereMuchIs) {
 TEST(DiscrepancyGain, IsTakenUpByTheFormOfAnEffect) {
   DiscrepancyOptions options;
   options.form_sizes = {0.0, 1.0, 1.0};
-  const Eigen::MatrixXd form = 4.0 * kTerm;
+  const Eigen::MatrixXd form = 4.0 * kTerm.columns;
   const DiscrepancyGain without = discrepancy_gain(fit_leaving(6.0), kTerm, kNoForm, options, never);
   const DiscrepancyGain with = discrepancy_gain(fit_leaving(6.0), kTerm, form, options, never);
   EXPECT_LT(with.something_else - with.imprecision, without.something_else - without.imprecision);

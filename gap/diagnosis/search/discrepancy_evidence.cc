@@ -34,12 +34,13 @@ struct Sizes {
 // of the latter two: products of columns are taken once for all sizes.
 class SizedMarginal {
  public:
-  SizedMarginal(const LinearProblem& fit, const Eigen::MatrixXd& form, const Eigen::MatrixXd& term)
+  SizedMarginal(const LinearProblem& fit, const Eigen::MatrixXd& form, const WhiteTerm& term)
       : known_(fit.columns.cols()),
         form_(form.cols()),
-        term_(term.cols()),
+        term_(term.columns.cols()),
+        single_(term.single),
         residual_square_(fit.residuals.squaredNorm()) {
-    const Eigen::MatrixXd all = both(both(fit.columns, form), term);
+    const Eigen::MatrixXd all = both(both(fit.columns, form), term.columns);
     squares_ = Eigen::MatrixXd::Zero(all.cols(), all.cols());
     squares_.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
     squares_.triangularView<Eigen::StrictlyUpper>() = squares_.transpose();
@@ -52,18 +53,22 @@ class SizedMarginal {
                         size.asDiagonal() * squares_ * size.asDiagonal());
   }
 
-  // By how much the above rises where one column of the term has so much more: columns x more. A column adds
+  // The term's columns that may stand alone.
+  std::span<const Eigen::Index> single() const { return single_; }
+  // By how much the above rises where one of these has so much more: single columns x more. A column adds
   // a rank to the covariance, which has a closed form.
   Eigen::MatrixXd with_single(double form_size, double term_size, std::span<const double> more) const {
     const Eigen::VectorXd size = sizes(form_size, term_size);
     Eigen::MatrixXd inner = size.asDiagonal() * squares_ * size.asDiagonal();
     inner.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(inner);
-    const Eigen::MatrixXd taken = llt.matrixL().solve(size.asDiagonal() * squares_.rightCols(term_));
+    const Eigen::MatrixXd single = squares_.rightCols(term_)(Eigen::all, single_);
+    const Eigen::MatrixXd taken = llt.matrixL().solve(size.asDiagonal() * single);
     const Eigen::VectorXd taken_products = llt.matrixL().solve(size.cwiseProduct(products_));
-    const Eigen::ArrayXd square = squares_.diagonal().tail(term_) - taken.colwise().squaredNorm().transpose();
-    const Eigen::ArrayXd product = products_.tail(term_) - taken.transpose() * taken_products;
-    Eigen::MatrixXd gains(term_, static_cast<Eigen::Index>(more.size()));
+    const Eigen::ArrayXd square =
+        squares_.diagonal().tail(term_)(single_) - taken.colwise().squaredNorm().transpose();
+    const Eigen::ArrayXd product = products_.tail(term_)(single_) - taken.transpose() * taken_products;
+    Eigen::MatrixXd gains(single.cols(), static_cast<Eigen::Index>(more.size()));
     for (std::size_t m = 0; m < more.size(); ++m) {
       const Eigen::ArrayXd variance = more[m] * more[m] * square;
       gains.col(static_cast<Eigen::Index>(m)) =
@@ -81,6 +86,7 @@ class SizedMarginal {
   }
 
   Eigen::Index known_, form_, term_;
+  std::vector<Eigen::Index> single_;
   double residual_square_;
   Eigen::MatrixXd squares_;
   Eigen::VectorXd products_;
@@ -102,11 +108,13 @@ void for_sizes(const SizedMarginal& marginal, bool has_form, const DiscrepancyOp
       Sizes sizes{exact, share * options.imprecision};
       const double imprecise = marginal(sizes.form, sizes.term);
       if (!take(Way::kImprecision, sizes, imprecise)) return;
+      const std::span<const Eigen::Index> single = marginal.single();
       const Eigen::MatrixXd gains = marginal.with_single(sizes.form, sizes.term, options.sizes);
       for (Eigen::Index m = 0; m < gains.cols(); ++m)
-        for (sizes.single = 0; sizes.single < gains.rows(); ++sizes.single) {
+        for (std::size_t c = 0; c < single.size(); ++c) {
+          sizes.single = single[c];
           sizes.single_size = options.sizes[static_cast<std::size_t>(m)];
-          if (!take(Way::kSingle, sizes, imprecise + gains(sizes.single, m))) return;
+          if (!take(Way::kSingle, sizes, imprecise + gains(static_cast<Eigen::Index>(c), m))) return;
         }
     }
     for (const double size : options.sizes)
@@ -139,9 +147,8 @@ Sizes most_probable(const SizedMarginal& marginal, bool has_form, bool something
 
 }  // namespace
 
-DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                                 const Eigen::MatrixXd& form, const DiscrepancyOptions& options,
-                                 const Cancelled& cancelled) {
+DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const WhiteTerm& term, const Eigen::MatrixXd& form,
+                                 const DiscrepancyOptions& options, const Cancelled& cancelled) {
   if (cancelled()) return {};
   const SizedMarginal marginal(linear_problem(fit), form, term);
   const double without = marginal(0.0, 0.0);
@@ -167,20 +174,21 @@ DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowMode
       options.discrepancy, [&model] { return model.cancelled(); });
 }
 
-Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                               const Eigen::MatrixXd& form, bool something_else,
-                               const DiscrepancyOptions& options, const Cancelled& cancelled) {
+Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const WhiteTerm& term, const Eigen::MatrixXd& form,
+                               bool something_else, const DiscrepancyOptions& options,
+                               const Cancelled& cancelled) {
   if (cancelled()) return fit.white_jacobian;
   const LinearProblem linear = linear_problem(fit);
   const Sizes best =
       most_probable(SizedMarginal(linear, form, term), form.cols() > 0, something_else, options, cancelled);
-  return both(both(linear.columns, best.form * form), term * best.of_term(term.cols()).asDiagonal());
+  return both(both(linear.columns, best.form * form),
+              term.columns * best.of_term(term.columns.cols()).asDiagonal());
 }
 
-double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                          std::span<const double> sizes, const Cancelled& cancelled) {
+double most_probable_size(const PosteriorMode& fit, const WhiteTerm& term, std::span<const double> sizes,
+                          const Cancelled& cancelled) {
   if (cancelled()) return sizes.front();
-  const SizedMarginal marginal(linear_problem(fit), Eigen::MatrixXd(term.rows(), 0), term);
+  const SizedMarginal marginal(linear_problem(fit), Eigen::MatrixXd(term.columns.rows(), 0), term);
   double best = -std::numeric_limits<double>::infinity();
   double size = sizes.front();
   for (const double s : sizes) {
@@ -193,20 +201,21 @@ double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
   return size;
 }
 
-DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
+DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const WhiteTerm& term,
                                          const DiscrepancyOptions& options, const Cancelled& cancelled) {
   const LinearProblem linear = linear_problem(fit);
-  const Eigen::VectorXd size = most_probable(SizedMarginal(linear, Eigen::MatrixXd(term.rows(), 0), term),
-                                             false, true, options, cancelled)
-                                   .of_term(term.cols());
-  const Eigen::MatrixXd columns = both(linear.columns, term * size.asDiagonal());
+  const Eigen::VectorXd size =
+      most_probable(SizedMarginal(linear, Eigen::MatrixXd(term.columns.rows(), 0), term), false, true,
+                    options, cancelled)
+          .of_term(term.columns.cols());
+  const Eigen::MatrixXd columns = both(linear.columns, term.columns * size.asDiagonal());
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
   const Eigen::VectorXd all = factor.solve(columns.transpose() * linear.residuals);
   const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
-  return {size.cwiseProduct(all.tail(term.cols())),
-          size.cwiseProduct(covariance.diagonal().tail(term.cols()).cwiseSqrt())};
+  return {size.cwiseProduct(all.tail(term.columns.cols())),
+          size.cwiseProduct(covariance.diagonal().tail(term.columns.cols()).cwiseSqrt())};
 }
 
 }  // namespace slipway::gap

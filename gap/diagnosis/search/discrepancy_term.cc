@@ -57,12 +57,9 @@ std::vector<EffectVariant> levers(const DiscrepancyOptions& options) {
 }
 
 // A force that keeps its direction on the map and what changes over the hours could enter at some points
-// only; a stiffness that is off throughout is a re-tuned parameter. The other circumstances go with every
-// entry.
+// only. The other circumstances go with every entry.
 bool may_depend(Entry entry, Circumstance circumstance) {
   switch (circumstance) {
-    case Circumstance::kConstant:
-      return entry != Entry::kPressureSinkage;
     case Circumstance::kEast:
     case Circumstance::kNorth:
       return entry == Entry::kTangentialForce || entry == Entry::kLateralForce;
@@ -269,9 +266,16 @@ DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const Windo
   return discrepancy;
 }
 
-Eigen::MatrixXd whitened(const PosteriorMode& fit, const NoiseModel& noise,
-                         const DiscrepancyTerm& discrepancy) {
-  return fit.row_weights.asDiagonal() * noise.whiten(discrepancy.values);
+bool acts_throughout(Circumstance circumstance) {
+  return circumstance == Circumstance::kConstant || circumstance == Circumstance::kDirection;
+}
+
+WhiteTerm whitened(const PosteriorMode& fit, const NoiseModel& noise, const DiscrepancyTerm& discrepancy) {
+  WhiteTerm white{fit.row_weights.asDiagonal() * noise.whiten(discrepancy.values), {}};
+  for (std::size_t c = 0; c < discrepancy.columns.size(); ++c)
+    if (!acts_throughout(discrepancy.columns[c].circumstance))
+      white.single.push_back(static_cast<Eigen::Index>(c));
+  return white;
 }
 
 Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,

@@ -83,9 +83,17 @@ DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const Windo
                                       const FittedExplanation& fit, const DiscrepancyOptions& options,
                                       std::size_t threads);
 
-// Its whitened columns, rows weighed as in the fit.
-Eigen::MatrixXd whitened(const PosteriorMode& fit, const NoiseModel& noise,
-                         const DiscrepancyTerm& discrepancy);
+// Whether all drives meet a circumstance alike, or would but for those that go backwards, which are few.
+bool acts_throughout(Circumstance circumstance);
+
+// Its whitened columns, rows weighed as in the fit, and those of them by which something else may enter
+// alone. What is off throughout may not: effects of the library, re-tuned parameters and causes from outside
+// say that.
+struct WhiteTerm {
+  Eigen::MatrixXd columns;
+  std::vector<Eigen::Index> single;
+};
+WhiteTerm whitened(const PosteriorMode& fit, const NoiseModel& noise, const DiscrepancyTerm& discrepancy);
 
 // The columns, whitened, by which the effects of a fit may be off: what each of them does there, times
 // functions of the circumstances. None where the fit has no effects. That an effect is at work does not say
@@ -104,9 +112,8 @@ using Cancelled = std::function<bool()>;
 struct DiscrepancyGain {
   double imprecision = 0.0, something_else = 0.0;
 };
-DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                                 const Eigen::MatrixXd& form, const DiscrepancyOptions& options,
-                                 const Cancelled& cancelled);
+DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const WhiteTerm& term, const Eigen::MatrixXd& form,
+                                 const DiscrepancyOptions& options, const Cancelled& cancelled);
 // The same with the columns made of a fit and its noise.
 DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowModel& model,
                                  const NoiseModel& noise, const FittedExplanation& fit,
@@ -114,19 +121,19 @@ DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowMode
 
 // The fit's whitened columns with the form's and the term's behind, these at their most probable sizes among
 // those that discrepancy_gain averages over.
-Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                               const Eigen::MatrixXd& form, bool something_else,
-                               const DiscrepancyOptions& options, const Cancelled& cancelled);
+Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const WhiteTerm& term, const Eigen::MatrixXd& form,
+                               bool something_else, const DiscrepancyOptions& options,
+                               const Cancelled& cancelled);
 
 // The one of these sizes (at least one) of the term beside a fit that has the most evidence.
-double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                          std::span<const double> sizes, const Cancelled& cancelled);
+double most_probable_size(const PosteriorMode& fit, const WhiteTerm& term, std::span<const double> sizes,
+                          const Cancelled& cancelled);
 
 // The coefficients' means and standard errors, in units of the columns, at the most probable size.
 struct DiscrepancyEstimate {
   Eigen::VectorXd mean, error;
 };
-DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
+DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const WhiteTerm& term,
                                          const DiscrepancyOptions& options, const Cancelled& cancelled);
 
 }  // namespace slipway::gap

@@ -127,7 +127,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
   known.predicted = fit.hypothesis.predict(model, fit.x, threads);
   // The fit's columns with those of the discrepancy term.
   Eigen::MatrixXd columns(linear.columns.rows(), linear.columns.cols() + discrepancy.values.cols());
-  columns << linear.columns, options.imprecision * whitened(fit, noise, discrepancy);
+  columns << linear.columns, options.imprecision * whitened(fit, noise, discrepancy).columns;
   const KnownColumns fitted(linear.residuals, columns);
   std::vector<ScreenedEffect> all(variants.size());
   parallel_for(variants.size(), threads, [&](std::size_t v) {

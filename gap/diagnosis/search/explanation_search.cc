@@ -294,6 +294,13 @@ class Searcher {
   ExplanationSearch search_;
 };
 
+// Whether the second has every effect of the first.
+bool is_part_of(const Candidate& part, const Candidate& whole) {
+  return std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& effect) {
+    return std::find(whole.effects.begin(), whole.effects.end(), effect) != whole.effects.end();
+  });
+}
+
 }  // namespace
 
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
@@ -334,6 +341,9 @@ std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& searc
   std::set<std::size_t> taken;
   for (const Candidate& c : search.candidates)
     if (fits.size() < most && taken.insert(c.fit).second) fits.push_back(search.fits[c.fit]);
+  for (const Candidate& c : search.candidates)
+    if (is_part_of(c, search.candidates.front()) && taken.insert(c.fit).second)
+      fits.push_back(search.fits[c.fit]);
   return fits;
 }
 

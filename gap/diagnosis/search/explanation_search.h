@@ -52,7 +52,8 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double min_size);
 
-// The fits of the most probable sets of effects, at most so many.
+// The fits of the most probable sets of effects, at most so many, and of all parts of the first: the shares
+// of its effects are told by those.
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);
 
 }  // namespace slipway::gap
