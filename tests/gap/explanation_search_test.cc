@@ -127,21 +127,43 @@ TEST(Hypothesis, SaysWhichQuantityOfWhichSoilAParameterIs) {
   EXPECT_EQ(frictions, 2);
 }
 
-TEST(MostProbableFits, TakeEachFitOnce) {
-  const DriveCampaign campaign = campaign_of_one_soil();
-  ExplanationSearch search;
-  for (const double mark : {1.0, 2.0, 3.0}) {
-    search.fits.push_back({{}, Hypothesis(campaign, {})});
-    search.fits.back().log_evidence = mark;
+class MostProbableFits : public ::testing::Test {
+ protected:
+  MostProbableFits() {
+    for (const double mark : {1.0, 2.0, 3.0}) {
+      search_.fits.push_back({{}, Hypothesis(campaign_, {})});
+      search_.fits.back().log_evidence = mark;
+    }
   }
-  for (const std::size_t fit : {2U, 2U, 0U, 1U}) {
-    search.candidates.emplace_back();
-    search.candidates.back().fit = fit;
+  void candidate(std::size_t fit, std::vector<std::string> effects) {
+    search_.candidates.emplace_back();
+    search_.candidates.back().fit = fit;
+    search_.candidates.back().effects = std::move(effects);
   }
-  const std::vector<FittedExplanation> fits = most_probable_fits(search, 2);
-  ASSERT_EQ(fits.size(), 2U);
-  EXPECT_EQ(fits[0].log_evidence, 3.0);
-  EXPECT_EQ(fits[1].log_evidence, 1.0);
+  std::vector<double> marks(std::size_t most) const {
+    std::vector<double> found;
+    for (const FittedExplanation& fit : most_probable_fits(search_, most)) found.push_back(fit.log_evidence);
+    return found;
+  }
+
+ private:
+  DriveCampaign campaign_ = campaign_of_one_soil();
+  ExplanationSearch search_;
+};
+
+TEST_F(MostProbableFits, TakeEachFitOnce) {
+  candidate(2, {"multipass"});
+  candidate(2, {"multipass"});
+  candidate(0, {"digging"});
+  candidate(1, {"ploughing"});
+  EXPECT_EQ(marks(2), (std::vector{3.0, 1.0}));
+}
+
+TEST_F(MostProbableFits, HaveThePartsOfTheBestSetHoweverImprobable) {
+  candidate(2, {"multipass", "digging"});
+  candidate(0, {"ploughing"});
+  candidate(1, {"digging"});
+  EXPECT_EQ(marks(1), (std::vector{3.0, 2.0}));
 }
 
 TEST(ChosenOfResample, IsThatOfTheChangedEvidenceWhateverTheOrderWas) {

@@ -145,8 +145,8 @@ double log_marginal(double residual_square, const Eigen::VectorXd& products, Eig
   return -0.5 * (residual_square - explained) - llt.matrixLLT().diagonal().array().log().sum();
 }
 
-double NoiseModel::log_prior() const {
-  return -0.5 * from_belief(scales_, options_.initial).squaredNorm() /
+double NoiseModel::log_prior(const NoiseScales& scales) const {
+  return -0.5 * from_belief(scales, options_.initial).squaredNorm() /
          (options_.prior_std * options_.prior_std);
 }
 
@@ -178,11 +178,10 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
                           std::size_t threads) {
   if (blocks_.empty()) return;
   ScatterLikelihood likelihood = likelihood_of(residuals, systematic, threads);
-  const double prior_precision = 1.0 / (options_.prior_std * options_.prior_std);
   const auto probability = [&](const NoiseScales& scales) {
-    return likelihood.at(scales) -
-           0.5 * prior_precision * from_belief(scales, options_.initial).squaredNorm();
+    return likelihood.at(scales) + log_prior(scales);
   };
+  const double prior_precision = 1.0 / (options_.prior_std * options_.prior_std);
   NoiseScales best = scales_;
   double value = probability(best);
   constexpr int kMaxSteps = 30, kMaxHalvings = 6;

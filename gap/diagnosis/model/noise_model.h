@@ -58,11 +58,10 @@ class NoiseModel {
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
   // What the scales were believed to be before the drives, and how probable that makes those of now.
   const NoiseScales& believed() const { return options_.initial; }
-  double log_prior() const;
   // The scale that lies furthest above what was believed.
   ScaleOffBelief furthest_above_belief() const;
   // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.
-  double log_normalisation() const { return log_prior() - 0.5 * log_determinant_; }
+  double log_normalisation() const { return log_prior(scales_) - 0.5 * log_determinant_; }
   double log_determinant() const { return log_determinant_; }
   // What L takes: it grows with the drives' lengths and not with their squares, since the windows of a drive
   // share three numbers only.
@@ -88,6 +87,7 @@ class NoiseModel {
   ScatterLikelihood likelihood_of(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
                                   std::size_t threads) const;
   void factor(Block& block);  // by the scales
+  double log_prior(const NoiseScales& scales) const;
   // Of sensors and of what is left over.
   Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;
 

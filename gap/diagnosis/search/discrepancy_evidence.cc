@@ -99,8 +99,9 @@ enum class Way {
   kSmooth   // something else at all points by all circumstances at once
 };
 
-// The log marginals of every way and size; `take` says whether to go on.
-void for_sizes(const SizedMarginal& marginal, bool has_form, const DiscrepancyOptions& options,
+// The log marginals of every way and size, or those of imprecision alone; `take` says whether to go on.
+void for_sizes(const SizedMarginal& marginal, bool has_form, bool something_else,
+               const DiscrepancyOptions& options,
                const std::function<bool(Way, const Sizes&, double)>& take) {
   for (const double exact : options.form_sizes) {
     if (exact > 0.0 && !has_form) continue;
@@ -108,6 +109,7 @@ void for_sizes(const SizedMarginal& marginal, bool has_form, const DiscrepancyOp
       Sizes sizes{exact, share * options.imprecision};
       const double imprecise = marginal(sizes.form, sizes.term);
       if (!take(Way::kImprecision, sizes, imprecise)) return;
+      if (!something_else) continue;
       const std::span<const Eigen::Index> single = marginal.single();
       const Eigen::MatrixXd gains = marginal.with_single(sizes.form, sizes.term, options.sizes);
       for (Eigen::Index m = 0; m < gains.cols(); ++m)
@@ -117,6 +119,7 @@ void for_sizes(const SizedMarginal& marginal, bool has_form, const DiscrepancyOp
           if (!take(Way::kSingle, sizes, imprecise + gains(static_cast<Eigen::Index>(c), m))) return;
         }
     }
+    if (!something_else) continue;
     for (const double size : options.sizes)
       if (!take(Way::kSmooth, {exact, size}, marginal(exact, size))) return;
   }
@@ -136,7 +139,7 @@ Sizes most_probable(const SizedMarginal& marginal, bool has_form, bool something
                     const DiscrepancyOptions& options, const Cancelled& cancelled) {
   Sizes best;
   double most = -std::numeric_limits<double>::infinity();
-  for_sizes(marginal, has_form, options, [&](Way way, const Sizes& sizes, double value) {
+  for_sizes(marginal, has_form, something_else, options, [&](Way way, const Sizes& sizes, double value) {
     if ((way != Way::kImprecision) != something_else || value <= most) return !cancelled();
     most = value;
     best = sizes;
@@ -153,7 +156,7 @@ DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const WhiteTerm& term
   const SizedMarginal marginal(linear_problem(fit), form, term);
   const double without = marginal(0.0, 0.0);
   std::array<std::vector<double>, 3> values;
-  for_sizes(marginal, form.cols() > 0, options, [&](Way way, const Sizes&, double value) {
+  for_sizes(marginal, form.cols() > 0, true, options, [&](Way way, const Sizes&, double value) {
     values[static_cast<std::size_t>(way)].push_back(value);
     return !cancelled();
   });
