@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
@@ -20,6 +21,17 @@ bool stands_beside_form(const EffectMarginal& marginal, const VerdictOptions& op
   return as_good_as_certain(marginal, options) ||
          (marginal.probability >= options.min_probability_closing_most &&
           marginal.closed_share >= options.min_partial_share);
+}
+
+// Whether all these effects, which stand in one explanation, stand beside something unknown together. Of what
+// is closed by two at once neither can close most: each closes most of what the others leave.
+bool stand_together(const Names& effects, std::span<const EffectMarginal> marginals,
+                    const CauseShares& shares, const VerdictOptions& options) {
+  return std::all_of(effects.begin(), effects.end(), [&](const std::string& effect) {
+    return marginal_of(marginals, effect).probability >= options.min_partial_probability &&
+           shares.of_gap(effect) >= options.min_closed_share &&
+           shares.beside_others(effect) >= options.min_partial_share;
+  });
 }
 
 // The most probable candidate of which this holds; none where no such was compared.
@@ -145,6 +157,8 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   for (const EffectMarginal& m : marginals)
     if (stands_beside_unknown(m, options) || (known_form && stands_beside_form(m, options)))
       names.insert(m.name);
+  if (const Names all = set_of(library_effects_of(first)); stand_together(all, marginals, shares, options))
+    names.insert(all.begin(), all.end());
   if (names.empty()) return as_chosen(search, chosen);
   const auto has_names = [&](const Candidate& c) { return set_of(library_effects_of(c)) == names; };
   const auto any = candidate_where(search, [&](const Candidate& c) { return c.unknown() && has_names(c); });

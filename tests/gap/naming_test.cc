@@ -64,6 +64,23 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
   EXPECT_FALSE(named(search, {{"dragging_wheel", 0.99, 0.2}}).partial);
 }
 
+// 6201 s04 and s02: both effects of a pair were in all explanations, and something else besides.
+TEST(Naming, NamesSeveralBesideAnUnknownCauseOfWhichEachClosesMostOfWhatTheOthersLeave) {
+  const ExplanationSearch search =
+      search_of({candidate({"gearbox_friction", "multipass"}, 0.56, true),
+                 candidate({"gearbox_friction", "multipass"}, 0.44), candidate({}, 0.001)});
+  const auto names = [&](double probability, double closed, double of_rest) {
+    return named(search, {{"multipass", 1.0, 0.48}, {"gearbox_friction", probability, closed}}, {}, 1.0,
+                 of_rest);
+  };
+  EXPECT_EQ(names(0.999, 0.40, 0.75).effects, (std::vector<std::string>{"gearbox_friction", "multipass"}));
+  EXPECT_TRUE(names(0.999, 0.40, 0.75).partial);
+  EXPECT_EQ(names(0.95, 0.08, 0.68).effects.size(), 2U);
+  EXPECT_TRUE(names(0.89, 0.40, 0.75).effects.empty()) << "a shadow, perhaps";
+  EXPECT_TRUE(names(0.999, 0.04, 0.75).effects.empty()) << "next to nothing";
+  EXPECT_TRUE(names(0.999, 0.40, 0.45).effects.empty()) << "most of what is left is something else";
+}
+
 TEST(Naming, LeavesOutWhatClosesNextToNothing) {
   const ExplanationSearch search = search_of(
       {candidate({"grousers", "hardpan"}, 0.8), candidate({"grousers"}, 0.15), candidate({}, 0.05)});

@@ -250,6 +250,35 @@ TEST(FindMode, DoesNotStepWhereTheRoverWouldStandUnlessNothingElseIsBetter) {
   EXPECT_NEAR(over.x[0], 2.0, 0.05);
 }
 
+// f = x^3, of which 0 is measured: a Gauss-Newton step takes a third of x away.
+class Cube : public LinearModel {
+ public:
+  Cube()
+      : LinearModel(Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1),
+                    {parameter(1e6)}) {}
+  std::vector<double> predict(std::span<const double> x) const override { return {x[0] * x[0] * x[0]}; }
+  Eigen::MatrixXd scaled_jacobian(std::span<const double> x, std::span<const double>) const override {
+    return Eigen::MatrixXd::Constant(1, 1, 1e6 * 3.0 * x[0] * x[0]);
+  }
+};
+
+TEST(FindMode, GivesUpWhatWouldNotReachTheEvidenceAskedForAtThePaceOfItsLastTwoSteps) {
+  FitOptions options;
+  options.huber = 1e9;
+  options.max_iterations = 12;
+  const std::vector<double> start{3.0};
+  const auto found = [&](double must_reach) { return find_mode(Cube(), start, options, {}, must_reach); };
+  const PosteriorMode to_its_end = found(kAnyEvidence);
+  EXPECT_TRUE(to_its_end.converged);
+  EXPECT_EQ(found(to_its_end.log_evidence - 1.0).x, to_its_end.x);
+  // The cost falls from 3^6 / 2 by 332, 29 and 3, and there are twelve steps at most.
+  const PosteriorMode given_up = found(4000.0);
+  EXPECT_FALSE(given_up.converged);
+  EXPECT_NEAR(given_up.x[0], 3.0 * 4.0 / 9.0, 1e-6);
+  EXPECT_NEAR(found(3000.0).x[0], 3.0 * 8.0 / 27.0, 1e-6) << "10 times 332 might have done";
+  EXPECT_LT(given_up.log_evidence, to_its_end.log_evidence);
+}
+
 // A prior of one side only holds its probability on half the room.
 TEST(LaplaceEvidence, OfAOneSidedPriorIsTwiceAsDense) {
   const Eigen::MatrixXd covariance = Eigen::Matrix2d{{0.25, 0.0}, {0.0, 0.04}};

@@ -125,8 +125,8 @@ void list_soft_patch(const SoftPatchOptions& options, Lister& list) {
 void list_search(const SearchOptions& options, Lister& list) {
   list.step("search");
   const auto& [withheld, max_refitted, max_variants, max_paired, max_seconds, min_pair_gain, max_linear_shift,
-               min_named_size, something_else, outside, max_outside, max_outside_seconds, max_scattered,
-               threads] = options;
+               max_behind, min_named_size, something_else, outside, max_outside, max_outside_seconds,
+               max_scattered, threads] = options;
   static_cast<void>(withheld);
   static_cast<void>(threads);
   SLIPWAY_FIELD(max_refitted);
@@ -135,6 +135,7 @@ void list_search(const SearchOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_seconds);
   SLIPWAY_FIELD(min_pair_gain);
   SLIPWAY_FIELD(max_linear_shift);
+  SLIPWAY_FIELD(max_behind);
   SLIPWAY_FIELD(min_named_size);
   SLIPWAY_FIELD(something_else);
   SLIPWAY_FIELD(outside);

@@ -99,6 +99,8 @@ struct SearchOptions {
   // Prior deviations: re-tuned parameters that had to go this far are no point from which effects look
   // linear, so that effects are screened at the nominal parameters too.
   double max_linear_shift = 2.5;
+  // A fit that would stay this much log evidence behind the best one is given up.
+  double max_behind = 50.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double min_named_size = 0.3;

@@ -65,12 +65,16 @@ std::optional<std::vector<double>> where_it_answers(const SimulatedDrives& drive
   return std::nullopt;
 }
 
+bool leaves_open(const WindowModel& model) {
+  return model.learnt() != nullptr && model.learnt()->left.cols() > 0;
+}
+
 // What reference drives left open of the difference stands beside every explanation.
 void leave_open(const WindowModel& model, const NoiseModel& noise, FittedExplanation& fit) {
-  const LearntDifference* const learnt = model.learnt();
-  if (learnt == nullptr || learnt->left.cols() == 0) return;
-  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + learnt->left.cols());
-  columns << fit.white_jacobian, fit.row_weights.asDiagonal() * noise.whiten(learnt->left);
+  if (!leaves_open(model)) return;
+  const Eigen::MatrixXd& left = model.learnt()->left;
+  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + left.cols());
+  columns << fit.white_jacobian, fit.row_weights.asDiagonal() * noise.whiten(left);
   fit.log_evidence +=
       log_marginal(fit.white_linear, columns) - log_marginal(fit.white_linear, fit.white_jacobian);
   fit.white_jacobian = std::move(columns);
@@ -141,12 +145,13 @@ void keep_better(FittedExplanation& fit, FittedExplanation other) {
 FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
                                   const NoiseModel& noise, std::span<const double> start,
                                   const FitOptions& options, std::size_t threads,
-                                  const std::vector<bool>& fitted_rows) {
+                                  const std::vector<bool>& fitted_rows, double must_reach) {
   const SimulatedDrives drives(hypothesis, model, noise, threads);
-  FittedExplanation fit{find_mode(drives, start, options, fitted_rows), hypothesis};
+  if (leaves_open(model)) must_reach = kAnyEvidence;
+  FittedExplanation fit{find_mode(drives, start, options, fitted_rows, must_reach), hypothesis};
   if (fit.unanswered > 0 && options.max_iterations > 0)
     if (const auto start_there = where_it_answers(drives, hypothesis, fit, options, fitted_rows))
-      keep_better(fit, {find_mode(drives, *start_there, options, fitted_rows), hypothesis});
+      keep_better(fit, {find_mode(drives, *start_there, options, fitted_rows, must_reach), hypothesis});
   leave_open(model, noise, fit);
   return fit;
 }

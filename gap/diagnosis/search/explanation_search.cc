@@ -75,7 +75,7 @@ class Searcher {
       const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
       FittedExplanation& fit = search_.fits[index];
       if (const std::vector<double>* const other = variants_.start_from_nominal(s.variant))
-        keep_better(fit, fitted(fit.hypothesis, *other));
+        keep_better(fit, fitted(fit.hypothesis, *other, fit.log_evidence));
       if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
                                 options_.search.threads);
@@ -149,7 +149,7 @@ class Searcher {
       const auto own = std::find_if(effects.begin(), effects.end(),
                                     [&](const EffectVariant& v) { return v.effect == effect; });
       const Hypothesis alone(campaign_, {*own});
-      keep_better(fit, fitted(alone, started_at(alone, *best)));
+      keep_better(fit, fitted(alone, started_at(alone, *best), fit.log_evidence));
     }
   }
 
@@ -197,8 +197,13 @@ class Searcher {
     return seconds;
   }
 
-  FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
-    return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads);
+  // Given up where it would come neither near the best fit nor to what it competes with.
+  FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start,
+                           double must_reach = kAnyEvidence) const {
+    for (const FittedExplanation& fit : search_.fits)
+      must_reach = std::max(must_reach, fit.log_evidence - options_.search.max_behind);
+    return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads, {},
+                           must_reach);
   }
   std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
     search_.fits.push_back(fitted(hypothesis, start));
@@ -223,7 +228,7 @@ class Searcher {
       const double sense = off < 0.0 || parameter.highest <= parameter.neutral ? -1.0 : 1.0;
       start[p] += std::abs(off) < half ? sense * half : off;
     }
-    keep_better(fit, fitted(fit.hypothesis, start));
+    keep_better(fit, fitted(fit.hypothesis, start, fit.log_evidence));
   }
 
   // By how much less evidence an effect has in its other ways, alone: by fits where both were fitted,

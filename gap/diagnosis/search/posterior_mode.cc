@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace slipway::gap {
 namespace {
@@ -27,18 +29,21 @@ struct Trial {
 
 class ModeSearch {
  public:
-  ModeSearch(const FittedModel& model, const FitOptions& options, const std::vector<bool>& fitted_rows)
+  ModeSearch(const FittedModel& model, const FitOptions& options, const std::vector<bool>& fitted_rows,
+             double must_reach)
       : model_(model),
         options_(options),
         fitted_rows_(fitted_rows),
+        must_reach_(must_reach),
         loss_{options.huber},
         precision_(model.prior_precision()) {}
 
   PosteriorMode run(std::span<const double> start) {
     at_ = trial_at({start.begin(), start.end()});
     for (int iteration = 0;; ++iteration) {
-      const bool last = converged_ || iteration >= options_.max_iterations || model_.cancelled();
-      linearise(last);
+      const bool given_up = is_too_slow(options_.max_iterations - iteration);
+      const bool last = given_up || converged_ || iteration >= options_.max_iterations || model_.cancelled();
+      if (!given_up) linearise(last);
       weights_ = loss_weights(at_.white, loss_, fitted_rows_);
       NormalEquations equations = normal_equations(columns_, weights_, precision_);
       covariance_ = std::move(equations.covariance);
@@ -63,6 +68,12 @@ class ModeSearch {
     trial.u = in_prior_units(model_.parameters(), trial.x);
     trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_, precision_);
     return trial;
+  }
+
+  // Whether so many iterations more, in each of which the cost falls by the larger of its last two falls,
+  // would not do: the log evidence is hardly above the cost's negative. What is near its mode is finished.
+  bool is_too_slow(int iterations_left) const {
+    return !near_ && iterations_left * std::max(fall_, fall_before_) < must_reach_ + at_.cost;
   }
 
   // Deviations by which a row is off where the model has no answer.
@@ -111,9 +122,9 @@ class ModeSearch {
     };
     const auto answers = [&] { return trial.unanswered <= at_.unanswered; };
     if (const auto share = shortened_step(at_.cost, cost_at, answers, [&] { return model_.cancelled(); })) {
-      const double fall = at_.cost - trial.cost;
-      converged_ = fall < options_.min_fall || *share * largest < options_.tolerance;
-      near_ = fall < kNear;
+      fall_before_ = std::exchange(fall_, at_.cost - trial.cost);
+      converged_ = fall_ < options_.min_fall || *share * largest < options_.tolerance;
+      near_ = fall_ < kNear;
       fresh_ = false;
       at_ = std::move(trial);
       return true;
@@ -161,6 +172,7 @@ class ModeSearch {
   const FittedModel& model_;
   const FitOptions& options_;
   const std::vector<bool>& fitted_rows_;
+  double must_reach_;
   HuberLoss loss_;
   Eigen::MatrixXd precision_;  // of the prior; empty: 1
   Trial at_;
@@ -169,6 +181,8 @@ class ModeSearch {
   Eigen::MatrixXd covariance_;
   // near_: the last step hardly lowered the cost; central_: the derivatives are central differences; fresh_:
   // they were taken at this very point.
+  // Of the cost in the last two steps.
+  double fall_ = std::numeric_limits<double>::infinity(), fall_before_ = fall_;
   bool near_ = false, central_ = false, fresh_ = false, converged_ = false;
 };
 
@@ -286,8 +300,8 @@ LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Para
 }
 
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
-                        const std::vector<bool>& fitted_rows) {
-  return ModeSearch(model, options, fitted_rows).run(start);
+                        const std::vector<bool>& fitted_rows, double must_reach) {
+  return ModeSearch(model, options, fitted_rows, must_reach).run(start);
 }
 
 }  // namespace slipway::gap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -72,9 +73,14 @@ LinearProblem linear_problem(const PosteriorMode& mode);
 // The same in the observations' own units, rows not weighed, without what reference drives left open.
 LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Parameter> parameters);
 
-// The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all).
+// What a log evidence has to come to where anything will do.
+constexpr double kAnyEvidence = -std::numeric_limits<double>::infinity();
+
+// The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all). Where the cost falls too
+// slowly for the log evidence to come to `must_reach` in the iterations that are left, it is a point on the
+// way.
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
-                        const std::vector<bool>& fitted_rows = {});
+                        const std::vector<bool>& fitted_rows = {}, double must_reach = kAnyEvidence);
 
 // The parts of it.
 

@@ -147,9 +147,10 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
   const auto taken = [&](const sim::Disc& there) {
     std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     moved[which] = variant_at(effect, there);
+    const double must_reach = fit.log_evidence + patch_options.min_rise;
     FittedExplanation trial =
-        fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads);
-    if (trial.log_evidence <= fit.log_evidence + patch_options.min_rise) return false;
+        fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads, {}, must_reach);
+    if (trial.log_evidence <= must_reach) return false;
     fit = std::move(trial);
     return true;
   };
