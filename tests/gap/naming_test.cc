@@ -64,7 +64,7 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
   EXPECT_FALSE(named(search, {{"dragging_wheel", 0.99, 0.2}}).partial);
 }
 
-// 6201 s04 and s02: both effects of a pair were in all explanations, and something else besides.
+// 6201 s04: both effects of a pair were in all explanations, and something else besides.
 TEST(Naming, NamesSeveralBesideAnUnknownCauseOfWhichEachClosesMostOfWhatTheOthersLeave) {
   const ExplanationSearch search =
       search_of({candidate({"gearbox_friction", "multipass"}, 0.56, true),
