@@ -52,9 +52,10 @@ struct Beliefs {
 // among the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
 // probability and share reach min_partial_probability and min_partial_share; of several these must stand
 // together in an explanation that was compared. The effects of what was chosen are also named where each of
-// them has that probability, closes min_closed_share, and closes min_partial_share of what the others leave. Where what was chosen is a cause from outside, so that the
-// unknown has a known form, min_share_beside_form does with min_probability_beside_form, or
-// min_probability_closing_most of an effect that closes min_partial_share.
+// them has that probability, closes min_closed_share, and closes min_partial_share of what the others leave.
+// Where what was chosen is a cause from outside, so that the unknown has a known form, min_share_beside_form
+// does with min_probability_beside_form, or min_probability_closing_most of an effect that closes
+// min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const Beliefs& beliefs, const VerdictOptions& options);
