@@ -179,10 +179,10 @@ class ModeSearch {
   Eigen::MatrixXd jacobian_, columns_;  // columns_: whitened
   Eigen::VectorXd weights_;
   Eigen::MatrixXd covariance_;
+  // Of the cost in the last two steps; infinite before there were any.
+  double fall_ = std::numeric_limits<double>::infinity(), fall_before_ = fall_;
   // near_: the last step hardly lowered the cost; central_: the derivatives are central differences; fresh_:
   // they were taken at this very point.
-  // Of the cost in the last two steps.
-  double fall_ = std::numeric_limits<double>::infinity(), fall_before_ = fall_;
   bool near_ = false, central_ = false, fresh_ = false, converged_ = false;
 };
 
