@@ -177,6 +177,7 @@ class Diagnoser {
               return scatter_beyond_belief(furthest_scatter(), options_.verdict) ||
                      beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict);
             }};
+    most_believed_ = best_;
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
@@ -271,9 +272,10 @@ class Diagnoser {
     if (!explains()) return {{uncorrected()}, {}};
     if (d_.partial) return {{refit(best_)}, {}};
     CorrectionChoice choice{{refit(best_)}, {}};
-    std::map<std::size_t, std::size_t> correction_of{{best_, 0}};
+    // Where resamples choose what was chosen of all drives, they give it the same names.
+    std::map<std::size_t, std::size_t> correction_of{{best_, 0}, {most_believed_, 0}};
     for (std::size_t c = 0; c < selection.share.size(); ++c) {
-      if (c == best_ || selection.share[c] == 0.0) continue;
+      if (correction_of.contains(c) || selection.share[c] == 0.0) continue;
       if (corrects(c) && selection.share[c] < options_.held_out.min_chosen_share) {
         correction_of[c] = 0;
         continue;
@@ -379,7 +381,8 @@ class Diagnoser {
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;
-  std::size_t best_ = 0;  // of its candidates: what is reported
+  std::size_t best_ = 0;           // of its candidates: what is reported
+  std::size_t most_believed_ = 0;  // the one that names were taken from
   Naming naming_;
   double named_share_ = 0.0;  // of the held-out gap
   Diagnosis d_;

@@ -12,7 +12,7 @@ import csv, json, math, pathlib, shutil, sys
 source, team = map(pathlib.Path, sys.argv[1:])
 team.mkdir()
 campaign = json.loads((source / "campaign.json").read_text())
-drives = [campaign["drives"][k] for k in (0, 20, 30)]  # on level ground and on slopes
+drives = [campaign["drives"][k] for k in (0, 20, 33)]  # on level ground, up a slope and across one
 known = {key: value for key, value in campaign.items() if key not in ("format", "name", "drives")}
 used = {drive["terrain"] for drive in drives}
 known["terrains"] = {name: terrain for name, terrain in known["terrains"].items() if name in used}
@@ -113,6 +113,22 @@ sed -e 's/, unit = "rad"//; s/from = "heading"/from = "heading_rad"/' "$folder/t
 grep -q '^warning: .*tilted by .* change the key unit of columns.roll_deg and columns.pitch_deg of angles.toml' "$folder/words"
 grep -q '^warning: .*heading is more than .* columns.yaw_deg of angles.toml' "$folder/words"
 tail -n 1 "$folder/words" | grep -q '^warning: '
+
+# A sign that is forgotten turns pitch, roll or all currents: each has its warning, and nothing else does.
+for turned in 'pitch_deg = {from = "pitch_up_rad", unit = "rad"' 'roll_deg = {from = "roll_rad", unit = "rad"' \
+  '"{w}_current_a" = {from = "mA_{w}", unit = "mA"'; do
+  python3 - "$folder/team/yard.toml" "$folder/team/turned.toml" "$turned" <<'TURN'
+import pathlib, sys
+text = pathlib.Path(sys.argv[1]).read_text()
+assert text.count(sys.argv[3]) == 1
+pathlib.Path(sys.argv[2]).write_text(text.replace(sys.argv[3], sys.argv[3] + ", sign = -1"))
+TURN
+  rm -rf "$folder/turned"
+  "$slipway" import "$folder/team/turned.toml" --data "$data" --out "$folder/turned" >"$folder/words"
+  [ "$(grep -c '^warning: ' "$folder/words")" = 1 ]
+  key="$(echo "${turned%% =*}" | tr -d '"')"
+  grep '^warning: ' "$folder/words" | grep -qF "change the key sign of columns.\"$key\" of turned.toml"
+done
 # Rates in rad/s that are taken for deg/s.
 sed -e 's/unit = "rad\/s", //' "$folder/team/yard.toml" >"$folder/team/rates.toml"
 "$slipway" import "$folder/team/rates.toml" --data "$data" >"$folder/words"

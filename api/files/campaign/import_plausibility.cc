@@ -11,8 +11,10 @@
 
 #include "api/files/campaign/import_faults.h"
 #include "core/angle.h"
+#include "core/pose.h"
+#include "core/quantile.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
-#include "gap/diagnosis/model/window_readings.h"
+#include "sim/rover/drive_command.h"
 
 namespace slipway::api {
 namespace {
@@ -21,7 +23,6 @@ using gap::DriveCampaign;
 using gap::DriveSample;
 using gap::MeasuredDriveSeries;
 using gap::ReadingLimit;
-using gap::upper_median;
 
 const ReadingLimit* limit_of(const std::vector<ReadingLimit>& limits, std::string_view column) {
   const auto at = std::find_if(limits.begin(), limits.end(),
@@ -65,7 +66,7 @@ std::set<std::string> keys_of(const ImportedCampaign& campaign, std::string_view
 
 std::optional<double> median_of(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  return upper_median(std::move(values));
+  return median(std::move(values));
 }
 
 class Judge {
@@ -77,6 +78,9 @@ class Judge {
     judge_way();
     judge_rates();
     judge_tilts();
+    judge_sign_of("pitch_deg", &Attitude::pitch_rad);
+    judge_sign_of("roll_deg", &Attitude::roll_rad);
+    judge_sign_of_currents();
     judge_headings();
     return std::move(warnings_);
   }
@@ -165,6 +169,64 @@ class Judge {
         "unit, change the key unit of columns.roll_deg and columns.pitch_deg of {}",
         *read, sources_of(campaign_, "roll_deg"), sources_of(campaign_, "pitch_deg"), *there,
         campaign_.mapping_file));
+  }
+
+  // Recorded angles beside those by which the rover stands on the ground under it, along its heading. A wrong
+  // heading turns both angles, and has a warning of its own.
+  void judge_sign_of(std::string_view key, double Attitude::*angle) {
+    constexpr std::size_t kLeastRows = 10;
+    constexpr double kTilted_rad = rad_from_deg(5.0);  // what is less tilted says nothing of a sign
+    constexpr double kTurned = -0.5;
+    std::vector<double> shares;  // of the ground's angle
+    for (const MeasuredDriveSeries& drive : read_.drives)
+      for (const DriveSample& sample : drive.samples) {
+        const auto& ground = read_.terrains[drive.terrain].ground;
+        if (!ground || !std::isfinite(sample.attitude.yaw_rad) || !sample.p_MB.allFinite()) continue;
+        const auto point = ground->at(sample.p_MB.x(), sample.p_MB.y());
+        if (!point) continue;
+        const Attitude stands = on_ground(point->normal, sample.attitude.yaw_rad);
+        const double share = sample.attitude.*angle / (stands.*angle);
+        if (std::abs(stands.*angle) > kTilted_rad && std::isfinite(share)) shares.push_back(share);
+      }
+    if (shares.size() < kLeastRows) return;
+    const double half = median(std::move(shares));
+    if (half > kTurned) return;
+    warnings_.push_back(
+        fmt::format("in half of the rows {}, as read from {}, is {:.3g} times that of the ground under the "
+                    "rover or less; expected is about 1 ({} is positive {}). If it was recorded in the other "
+                    "sense, change the key sign of {}",
+                    key, sources_of(campaign_, key), half, key,
+                    key == "pitch_deg" ? "nose down" : "left side up", key_words(campaign_, key)));
+  }
+
+  static Attitude on_ground(const Eigen::Vector3d& normal, double yaw_rad) {
+    const Eigen::Vector3d along = Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitZ()) * normal;
+    return {.roll_rad = -std::asin(std::clamp(along.y(), -1.0, 1.0)),
+            .pitch_rad = std::atan2(along.x(), along.z()),
+            .yaw_rad = yaw_rad};
+  }
+
+  // A motor that turns its wheel forwards is driven by a positive current, but for one that brakes downhill.
+  void judge_sign_of_currents() {
+    std::size_t forward = 0, negative = 0;
+    for (const MeasuredDriveSeries& drive : read_.drives) {
+      const auto commanded = sim::wheel_commands(*read_.rover, drive.command);
+      for (const DriveSample& sample : drive.samples)
+        for (std::size_t k = 0; k < commanded.size(); ++k) {
+          const double current_a = sample.wheels[k].current_a;
+          if (!(commanded[k].rate_rad_s > 0.0) || !std::isfinite(current_a)) continue;
+          ++forward;
+          negative += current_a < 0.0 ? 1 : 0;
+        }
+    }
+    if (2 * negative <= forward) return;
+    for (const std::string& key : keys_of(campaign_, "_current_a"))
+      warnings_.push_back(fmt::format(
+          "{:.0f} % of the currents of wheels that were commanded forwards are negative, as read from {}; "
+          "expected are few (motors that brake). If they were recorded in the other sense, change the key "
+          "sign of {}",
+          100.0 * static_cast<double>(negative) / static_cast<double>(forward), sources_of(campaign_, key),
+          key_words(campaign_, key)));
   }
 
   // Recorded headings beside the way from start to end, on which a drive's mean heading lies.

@@ -1,6 +1,5 @@
 #include "gap/diagnosis/describe/measurement_proposals.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -8,6 +7,7 @@
 #include <string>
 
 #include "gap/diagnosis/model/nuisance_catalogue.h"
+#include "gap/diagnosis/search/linear_gain.h"
 
 namespace slipway::gap {
 namespace {
@@ -35,13 +35,9 @@ Eigen::MatrixXd taken_beside(const FittedExplanation& null, const Kinds& known) 
   std::vector<Eigen::Index> left;
   const auto parameters = null.hypothesis.parameters();
   for (std::size_t p = 0; p < null.hypothesis.nuisance_count(); ++p)
-    if (!parameters[p].measured && !among(known, *parameters[p].kind))
+    if (parameters[p].is_told_by_drives() && !among(known, *parameters[p].kind))
       left.push_back(static_cast<Eigen::Index>(p));
-  const Eigen::MatrixXd columns = null.white_jacobian(Eigen::all, left);
-  if (left.empty()) return columns;  // all was measured
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::MatrixXd all = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  return all.leftCols(qr.rank());
+  return spanned_by(null.white_jacobian(Eigen::all, left));
 }
 
 // An effect that was not surely seen in any of its ways, with the whitened response of each at its usual
@@ -77,7 +73,7 @@ std::map<std::string, Unseen> unseen_effects(const ExplanationSearch& search, co
 std::vector<std::string> names_of(const FittedExplanation& null, const Kinds& kinds) {
   std::vector<std::string> names;
   for (const Parameter& parameter : null.hypothesis.parameters()) {
-    if (parameter.measured || !parameter.kind || !among(kinds, *parameter.kind)) continue;
+    if (!parameter.is_told_by_drives() || !parameter.kind || !among(kinds, *parameter.kind)) continue;
     std::string name = parameter.name.substr(0, parameter.name.find('/'));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   }

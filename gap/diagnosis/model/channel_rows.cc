@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/quantile.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/model/station_prediction.h"
 #include "gap/diagnosis/model/window_readings.h"
@@ -42,9 +43,11 @@ std::optional<Measured> current(const WindowReadings& readings, std::size_t whee
   Readings of_wheel = readings.of_wheel(wheel, &WheelReading::current_a, readings.sense_of_current(wheel));
   if (of_wheel.count() == 0) return std::nullopt;
   const MeasurementStd& std = readings.measurement_std();
-  const double scatter = std::hypot(std.current_a, std.current_relative * of_wheel.mean());
-  of_wheel = of_wheel.kept(2.0 * scatter, readings.options());
-  return Measured{of_wheel.mean(), scatter / std::sqrt(of_wheel.count()), together};
+  const auto scatter = [&](double current_a) {
+    return std::hypot(std.current_a, std.current_relative * current_a);
+  };
+  of_wheel = of_wheel.kept(2.0 * scatter(median(of_wheel.value)), readings.options());
+  return Measured{of_wheel.mean(), scatter(of_wheel.mean()) / std::sqrt(of_wheel.count()), together};
 }
 
 double predicted_current(const StationPrediction& at, std::size_t wheel) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 #include "gap/diagnosis/model/window_readings.h"
 
 namespace slipway::gap {
@@ -49,7 +50,7 @@ double interval_s(const MeasuredDriveSeries& drive) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < drive.samples.size(); ++i)
     intervals.push_back(drive.samples[i].time_s - drive.samples[i - 1].time_s);
-  return upper_median(std::move(intervals));
+  return median(std::move(intervals));
 }
 
 // How long a window lasts, s: three rows at least.

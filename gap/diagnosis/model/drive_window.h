@@ -47,9 +47,10 @@ bool currents_split_evenly(const DriveCampaign& campaign);
 
 // Windows of every drive, in the drives' order. A drive shorter than a window is one. None reaches across a
 // pause in the rows that is nearly as long as itself. Where rates were measured, rows before the wheels first
-// turn at half of the commanded rates, and after they last do, are left out. Samples whose value lies beyond
-// `outlier` deviations of their neighbours' median are passed over; windows with fewer than two poses have no
-// slip, side slip and yaw rate. Drives that are final_only are one window without currents.
+// turn at half of the commanded rates, and after they last do, are left out. Angles that lie beyond `outlier`
+// deviations of their neighbours' median, and currents beyond twice as many, are passed over; windows with
+// fewer than two poses have no slip, side slip and yaw rate. Drives that are final_only are one window
+// without currents.
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options = {});
 
 }  // namespace slipway::gap

@@ -14,7 +14,7 @@ namespace {
 using Free = EffectVariant::Free;
 
 // The step of a derivative, over the parameter's std.
-constexpr double kStep = 0.05;
+constexpr double kDerivativeStep = 0.05;
 // Share of its usual std that a nuisance has where it is held at its nominal value.
 constexpr double kHeld = 1e-3;
 
@@ -108,7 +108,7 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, wide ? kTotalTorqueStd : row.std,
                              std::min(row.lowest, -farthest), std::max(row.highest, farthest),
                              quantity_of(row), row.kind == NuisanceKind::kSoil ? soil : -1, row.kind, false,
-                             stated != campaign.parameter_std.end()});
+                             stated != campaign.parameter_std.end(), held});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }
@@ -262,7 +262,7 @@ void Hypothesis::add_learnt(const LearntDifference& learnt, std::span<const doub
 }
 
 double Hypothesis::step(std::size_t parameter) const {
-  return kStep * parameters_[parameter].std;
+  return kDerivativeStep * parameters_[parameter].std;
 }
 
 Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<const double> x,

@@ -39,6 +39,9 @@ struct Parameter {
   std::optional<NuisanceKind> kind = {};      // of a nuisance
   bool shape = false;                         // of an effect: it says in which form, not how strongly
   bool measured = false;                      // its deviation is one of DriveCampaign::parameter_std
+  bool held = false;                          // at its nominal value, by DriveCampaign::retuning
+  // Nobody measured it otherwise, and it is free.
+  bool is_told_by_drives() const { return !measured && !held; }
 };
 
 // Which nuisances are free. kClosures: soils and motors are held at their nominal values.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "gap/diagnosis/model/window_readings.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -41,8 +42,8 @@ std::optional<std::vector<double>> measured_rate_shares(const DriveCampaign& cam
   }
   if (of_wheel.empty() || static_cast<double>(of_wheel.front().size()) < kMinRows) return std::nullopt;
   std::vector<double> medians;
-  for (std::vector<double>& shares : of_wheel) medians.push_back(upper_median(std::move(shares)));
-  const double usual = upper_median(medians);
+  for (std::vector<double>& shares : of_wheel) medians.push_back(median(std::move(shares)));
+  const double usual = median(medians);
   if (!(usual > 0.0)) return std::nullopt;
   for (double& share : medians) share /= usual;
   return medians;

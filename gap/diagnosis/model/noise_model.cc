@@ -68,18 +68,18 @@ void NoiseModel::respond(const Eigen::MatrixXd& to_soil, std::span<const double>
 void NoiseModel::set(const NoiseScales& scales, std::size_t threads) {
   scales_ = scales;
   deviation_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()));
-  parallel_for(blocks_.size(), threads, [&](std::size_t b) { factor(blocks_[b]); });
+  parallel_for(blocks_.size(), threads, [&](std::size_t b) { make_whitening(blocks_[b]); });
   log_determinant_ = 0.0;
-  for (const Block& block : blocks_) log_determinant_ += block.factor.log_determinant();
+  for (const Block& block : blocks_) log_determinant_ += block.whitening.log_determinant();
 }
 
-void NoiseModel::factor(Block& block) {
+void NoiseModel::make_whitening(Block& block) {
   const Eigen::Vector3d deviations(scales_.stiffness, scales_.friction, scales_.shear_modulus);
   const double lean = scales_.lean_rad * scales_.lean_rad;
   const double shift = scales_.load_shift_m * scales_.load_shift_m;
   const Eigen::Vector4d of_the_map(lean, lean, shift, shift);
   const double within = scales_.within_drives * scales_.within_drives;
-  block.factor = {};
+  block.whitening = {};
   for (const WindowRows& part : block.windows) {
     const Eigen::MatrixXd g = response_(part.rows, Eigen::all);
     const Eigen::MatrixXd shared = g.leftCols(3) * deviations.asDiagonal();
@@ -90,7 +90,7 @@ void NoiseModel::factor(Block& block) {
       const auto at = static_cast<Eigen::Index>(i);
       deviation_[part.rows[i]] = std::sqrt(own(at, at) + shared.row(at).squaredNorm());
     }
-    block.factor.add(std::move(own), shared);
+    block.whitening.add(std::move(own), shared);
   }
 }
 
@@ -115,9 +115,9 @@ Eigen::VectorXd NoiseModel::variances_of(const WindowRows& part, const NoiseScal
   return variances;
 }
 
-std::size_t NoiseModel::factor_bytes() const {
+std::size_t NoiseModel::whitening_bytes() const {
   std::size_t bytes = 0;
-  for (const Block& block : blocks_) bytes += block.factor.bytes();
+  for (const Block& block : blocks_) bytes += block.whitening.bytes();
   return bytes;
 }
 
@@ -126,7 +126,7 @@ Eigen::MatrixXd NoiseModel::whiten(const Eigen::MatrixXd& columns) const {
   for (const Block& block : blocks_) {
     const std::vector<Eigen::Index> rows = rows_of(block);
     const Eigen::MatrixXd own = columns(rows, Eigen::all);
-    if (!own.isZero(0.0)) white(rows, Eigen::all) = block.factor.solve(own);
+    if (!own.isZero(0.0)) white(rows, Eigen::all) = block.whitening.whiten(own);
   }
   return white;
 }

@@ -8,7 +8,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/diagnosis/model/block_cholesky.h"
+#include "gap/diagnosis/model/block_whitening.h"
 #include "gap/diagnosis/model/noise_scales.h"
 #include "gap/diagnosis/model/window_model.h"
 
@@ -54,7 +54,7 @@ class NoiseModel {
   // the scales above.
   void estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic, std::size_t threads = 1);
 
-  // L^-1 r with V = L L^T. Rows not used are 0.
+  // W r with W V W^T = 1, see block_whitening.h. Rows not used are 0.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
   // What the scales were believed to be before the drives, and how probable that makes those of now.
   const NoiseScales& believed() const { return options_.initial; }
@@ -63,9 +63,9 @@ class NoiseModel {
   // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.
   double log_normalisation() const { return log_prior(scales_) - 0.5 * log_determinant_; }
   double log_determinant() const { return log_determinant_; }
-  // What L takes: it grows with the drives' lengths and not with their squares, since the windows of a drive
+  // What W takes: it grows with the drives' lengths and not with their squares, since the windows of a drive
   // share three numbers only.
-  std::size_t factor_bytes() const;
+  std::size_t whitening_bytes() const;
   // Square root of V's diagonal; 0 where not used.
   const Eigen::VectorXd& deviation() const { return deviation_; }
   const std::vector<bool>& used() const { return used_; }
@@ -80,13 +80,13 @@ class NoiseModel {
   struct Block {
     std::size_t drive = 0;
     std::vector<WindowRows> windows;  // in their order
-    BlockCholesky factor;             // L
+    BlockWhitening whitening;
   };
   static std::vector<Eigen::Index> rows_of(const Block& block);
   // Of all blocks, for these residuals and systematic columns.
   ScatterLikelihood likelihood_of(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
                                   std::size_t threads) const;
-  void factor(Block& block);  // by the scales
+  void make_whitening(Block& block);  // by the scales
   double log_prior(const NoiseScales& scales) const;
   // Of sensors and of what is left over.
   Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;

@@ -69,8 +69,9 @@ void show_current_drift(const Values& values, const WindowModel& model, std::vec
 
 void show_distance_gain(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
   for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
-    if (o.channel == Channel::kSlip && !model.windows()[w].command.turn_in_place)
-      value -= values.at("gain") * (1.0 - value);
+    if (model.windows()[w].command.turn_in_place) return;
+    if (o.channel == Channel::kSlip) value -= values.at("gain") * (1.0 - value);
+    if (o.channel == Channel::kSideSlip) value *= 1.0 + values.at("gain");
   });
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 #include "gap/diagnosis/model/window_readings.h"
 #include "sim/rover/motor.h"
 
@@ -37,7 +38,7 @@ std::optional<double> median_size(const DriveCampaign& campaign, const ReadingLi
       for (std::size_t k = 0; k < sample.wheels.size(); ++k)
         if (const double value = limit.of(sample, k); std::isfinite(value)) sizes.push_back(std::abs(value));
   if (sizes.empty()) return std::nullopt;
-  return upper_median(std::move(sizes));
+  return median(std::move(sizes));
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ std::optional<double> median_way_share(const DriveCampaign& campaign) {
   for (const MeasuredDriveSeries& drive : campaign.drives)
     if (const auto share = way_share(drive)) shares.push_back(*share);
   if (shares.empty()) return std::nullopt;
-  return upper_median(std::move(shares));
+  return median(std::move(shares));
 }
 
 std::vector<std::string> notes_of_implausible_readings(const DriveCampaign& campaign) {

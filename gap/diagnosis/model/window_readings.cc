@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 
 namespace slipway::gap {
 namespace {
@@ -66,12 +67,6 @@ Way way_since_middle(const Line& heading, double t) {
 
 }  // namespace
 
-double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double Readings::mean() const {
   double sum = 0.0;
   for (const double v : value) sum += v;
@@ -80,13 +75,18 @@ double Readings::mean() const {
 
 Readings Readings::kept(double std, const WindowOptions& options) const {
   if (count() < 5 || std <= 0.0) return *this;
+  std::vector<double> rates;
+  for (std::size_t i = 1; i < count(); ++i)
+    rates.push_back((value[i] - value[i - 1]) / (time_s[i] - time_s[i - 1]));
+  const double rate = median(std::move(rates));
   const auto neighbours = static_cast<std::size_t>(options.outlier_neighbours);
   Readings left;
   for (std::size_t i = 0; i < count(); ++i) {
     std::vector<double> around;
     const std::size_t from = i < neighbours ? 0 : i - neighbours;
-    for (std::size_t j = from; j <= std::min(count() - 1, i + neighbours); ++j) around.push_back(value[j]);
-    if (std::abs(value[i] - upper_median(std::move(around))) > options.outlier * std) continue;
+    for (std::size_t j = from; j <= std::min(count() - 1, i + neighbours); ++j)
+      around.push_back(value[j] - rate * (time_s[j] - time_s[i]));
+    if (std::abs(value[i] - median(std::move(around))) > options.outlier * std) continue;
     left.time_s.push_back(time_s[i]);
     left.value.push_back(value[i]);
   }
@@ -187,6 +187,7 @@ void WindowReadings::read_motion(const Readings& x, const Readings& y, const Rea
   if (command.turn_in_place) {
     motion_.slip = {1.0 - yaw_rate / command.turn_rate_rad_s,
                     std.attitude_rad * heading.rate_error / std::abs(command.turn_rate_rad_s)};
+    motion_.censored = motion_.slip->value > kCensoredSlip;
     return;
   }
   const Eigen::Vector2d travel = sim::travel_direction(command);

@@ -11,16 +11,15 @@
 
 namespace slipway::gap {
 
-// The middle value, of an even number the greater of the middle two. Values not empty.
-double upper_median(std::vector<double> values);
-
 // Readings of one quantity over a window.
 struct Readings {
   std::vector<double> time_s, value;
 
   std::size_t count() const { return value.size(); }
   double mean() const;
-  // Without what lies far from its neighbours' median, for readings of one standard deviation.
+  // Without what lies far from its neighbours' median, for readings of one standard deviation. They may
+  // change at a constant rate: neighbours are moved along the median of what it is from one reading to the
+  // next.
   Readings kept(double std, const WindowOptions& options) const;
 };
 

@@ -76,6 +76,7 @@ LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effect
 }
 
 void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
+  if (candidates.empty()) return;
   for (Candidate& c : candidates) c.probability = 0.0;
   const std::span<const EvidenceShare> shares =
       options.whole ? std::span<const EvidenceShare>(kWholeEvidence) : options.shares;

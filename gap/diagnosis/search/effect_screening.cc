@@ -1,7 +1,6 @@
 #include "gap/diagnosis/search/effect_screening.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -14,18 +13,12 @@ namespace {
 // Of an effect that is in the fit already: below every gain.
 constexpr double kInTheFit = -1e9;
 
-Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) return columns;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-}
-
-// Of a fit's parameters those that drives have to tell, as nobody measured them otherwise.
+// Of a fit's parameters those that drives have to tell.
 std::vector<Eigen::Index> retuned_columns(const FittedExplanation& fit) {
   std::vector<Eigen::Index> columns;
   const auto parameters = fit.hypothesis.parameters();
   for (std::size_t p = 0; p < parameters.size(); ++p)
-    if (!parameters[p].measured) columns.push_back(static_cast<Eigen::Index>(p));
+    if (parameters[p].is_told_by_drives()) columns.push_back(static_cast<Eigen::Index>(p));
   return columns;
 }
 
@@ -77,7 +70,7 @@ Eigen::MatrixXd reach_of(const Eigen::MatrixXd& columns) {
   std::vector<Eigen::Index> shown;
   for (Eigen::Index c = 0; c < columns.cols(); ++c)
     if (columns.col(c).norm() >= 1.0) shown.push_back(c);
-  return orthonormal_basis(columns(Eigen::all, shown));
+  return spanned_by(columns(Eigen::all, shown));
 }
 
 // A variant that is not in the fit.
@@ -117,7 +110,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
                                            const DiscrepancyOptions& options, std::size_t threads) {
   Known known;
   const LinearProblem linear = linear_problem(fit);
-  known.basis = orthonormal_basis(fit.white_jacobian(Eigen::all, retuned_columns(fit)));
+  known.basis = spanned_by(fit.white_jacobian(Eigen::all, retuned_columns(fit)));
   if (fit.hypothesis.prior_precision().size() > 0) {
     known.believed = fit.white_jacobian;
     Eigen::MatrixXd squares = known.believed.transpose() * known.believed;

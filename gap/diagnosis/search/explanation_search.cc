@@ -278,8 +278,10 @@ class Searcher {
   }
 
   Result<ExplanationSearch> weighed() && {
+    const auto cancelled = [] { return fail(ErrorCode::kCancelled, "the diagnosis was cancelled"); };
+    if (progress_.cancelled()) return cancelled();  // and there may be no candidates
     compare_with_own_scatter(campaign_, model_, noise_, discrepancy_, options_, progress_, search_);
-    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    if (progress_.cancelled()) return cancelled();
     rank(search_.candidates, options_.evidence);
     return std::move(search_);
   }

@@ -1,5 +1,6 @@
 #include "gap/diagnosis/search/linear_gain.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -52,6 +53,12 @@ KnownColumns::Equations KnownColumns::beside(const Eigen::MatrixXd& more) const 
   const Eigen::MatrixXd crossed = columns_.middleRows(first, own.rows()).transpose() * own;
   equations.squares -= crossed.transpose() * factor_.solve(crossed);
   return equations;
+}
+
+Eigen::MatrixXd spanned_by(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
 double gain_of(const KnownColumns::Equations& equations) {

@@ -31,6 +31,9 @@ class KnownColumns {
   Eigen::VectorXd left_;  // the residuals less what the known columns explain
 };
 
+// An orthonormal basis of what columns span. A column of zeros, or one that others make up, adds nothing.
+Eigen::MatrixXd spanned_by(const Eigen::MatrixXd& columns);
+
 // By how much log_marginal rises with columns whose equations these are.
 double gain_of(const KnownColumns::Equations& equations);
 

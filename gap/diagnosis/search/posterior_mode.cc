@@ -201,7 +201,7 @@ int unanswered_rows(const FittedModel& model, std::span<const double> predicted,
   int count = 0;
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(predicted.size()); ++i)
     if (!std::isfinite(predicted[static_cast<std::size_t>(i)]) && !model.stood(i) &&
-        is_fitted(fitted_rows, i))
+        model.deviation()[i] > 0.0 && is_fitted(fitted_rows, i))
       ++count;
   return count;
 }

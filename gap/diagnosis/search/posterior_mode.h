@@ -16,7 +16,8 @@ namespace slipway::gap {
 // The most probable parameters of a model under normal priors that are cut at bounds, with residuals that are
 // normal at their centre and heavy-tailed (Huber's loss), and Laplace's approximation of the evidence there.
 //
-// With u = (x - neutral) / prior deviation and w = L^-1 (y - f(x)) the whitened residuals, the cost is
+// With u = (x - neutral) / prior deviation and w = W (y - f(x)) the whitened residuals (block_whitening.h),
+// the cost is
 //
 //   J(u) = sum_i loss(w_i) + u^T u / 2,
 //
@@ -35,7 +36,7 @@ class FittedModel {
   // `predicted` at x one-sided, which costs half; without (empty) central.
   virtual Eigen::MatrixXd scaled_jacobian(std::span<const double> x,
                                           std::span<const double> predicted) const = 0;
-  virtual Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const = 0;  // L^-1 columns
+  virtual Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const = 0;  // W columns
   virtual const Eigen::VectorXd& deviation() const = 0;                      // of each observation's noise
   virtual bool cancelled() const = 0;
   // Whether a row was measured where the rover hardly moved, as a model says that has no answer there.

@@ -237,9 +237,14 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
   Eigen::MatrixXd own = Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd crossed = Eigen::MatrixXd::Zero(coefficients, count);
   std::vector<Eigen::Index> of;
-  for (const std::string& name : asked) {
-    const std::size_t place = place_in(learnt.names, name);
-    of.push_back(place < learnt.names.size() ? static_cast<Eigen::Index>(place) : -1);
+  Eigen::VectorXd deviation(count);  // of the reference's prior, in those of the new drives
+  for (std::size_t p = 0; p < asked.size(); ++p) {
+    const std::size_t place = place_in(learnt.names, asked[p]);
+    const bool there = place < learnt.names.size();
+    of.push_back(there ? static_cast<Eigen::Index>(place) : -1);
+    deviation[static_cast<Eigen::Index>(p)] =
+        there ? learnt.prepared.null->hypothesis.parameters()[place].std / hypothesis.parameters()[p].std
+              : 1.0;
   }
   for (Eigen::Index p = 0; p < count; ++p) {
     const Parameter& parameter = hypothesis.parameters()[static_cast<std::size_t>(p)];
@@ -247,10 +252,10 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
     belief->names.push_back(parameter.name);
     belief->mean[p] = at < 0 ? parameter.neutral : learnt.mean[at];
     if (at < 0) continue;
-    crossed.col(p) = learnt.covariance.block(known, at, coefficients, 1);
+    crossed.col(p) = deviation[p] * learnt.covariance.block(known, at, coefficients, 1);
     for (Eigen::Index q = 0; q < count; ++q)
       if (const Eigen::Index other = of[static_cast<std::size_t>(q)]; other >= 0)
-        own(p, q) = learnt.covariance(at, other);
+        own(p, q) = deviation[p] * deviation[q] * learnt.covariance(at, other);
     own(p, p) += options.drift * options.drift;
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(own);
