@@ -70,7 +70,8 @@ class JobRoutes {
     Query query(request, {"limit", "kind", "state"});
     const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
     const std::string kind = query.text("kind"), state = query.text("state");
-    if (!state.empty() && !api::job_state(state)) query.fault("state", "is no state of jobs");
+    if (!state.empty() && !api::job_state(state))
+      query.fault("state", "must be accepted, running, successful, failed or dismissed");
     if (const auto error = query.error()) return problem_response(*error, &request);
     const bool all = kind.empty() && state.empty();
     auto jobs = runner_.store().list(all ? limit : options_.most_listed);

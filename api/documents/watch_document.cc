@@ -19,6 +19,7 @@ std::string watch_document(const gap::DriveWatch& watch) {
   if (watch.alarm) {
     w.key("alarm").begin_object().text("drive", watch.drives[*watch.alarm].id);
     w.text("since", watch.drives[watch.since].id);
+    w.text("diagnosed_since", watch.drives[watch.diagnosed_since].id);
     w.whole("delay_drives", static_cast<std::int64_t>(*watch.alarm - watch.since + 1));
     w.key("onset").begin_object().text("first", watch.drives[watch.onset.first].id);
     w.text("last", watch.drives[watch.onset.last].id);

@@ -1,5 +1,7 @@
 #include "api/documents/watch_request.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,9 +32,15 @@ Result<void> read_campaign(ObjectReader& reader, const ShippedDrives& shipped, W
   if (*watched) request.watched = **std::move(watched);
   if (reader.member("drives", kOptional) != nullptr)
     reader.fault("drives", "are those of the campaign: leave out the one or the other");
-  constexpr int kMaxLearnt = 2000;
-  if (reader.whole("learn", kOptional, 1, kMaxLearnt, request.learn) && !request.reference.empty())
-    reader.fault("learn", "is of a watch without a reference");
+  const bool is_given = reader.member("learn", kOptional) != nullptr;
+  const bool is_count = reader.whole("learn", kOptional, gap::kFewestLearnt, gap::kMostLearnt, request.learn);
+  if (is_count && !request.reference.empty()) reader.fault("learn", "is of a watch without a reference");
+  const std::size_t all = request.watched.drives.size();
+  if ((is_count || !is_given) && *watched && request.reference.empty() &&
+      static_cast<std::size_t>(request.learn) >= all)
+    reader.fault("learn", fmt::format("is {}, must be below {}, the number of drives of {}: one at least is "
+                                      "left to watch",
+                                      request.learn, all, request.campaign));
   if (request.reference == request.campaign)
     reader.fault("reference",
                  "must be other drives than those that are watched; without it the first are learnt");

@@ -154,7 +154,7 @@ std::string deciding_words(const DriveWatch& watch) {
   return fmt::format(
       "The answer is the diagnosis of the drives from {} on; where it differs from the first pointer, the "
       "diagnosis counts",
-      watch.drives[watch.since].id);
+      watch.drives[watch.diagnosed_since].id);
 }
 
 std::vector<NamedChart> draw_watch(const DriveWatch& watch) {
@@ -189,7 +189,8 @@ ReportPage watch_report(const gap::DriveCampaign& campaign, const DriveWatch& wa
   write_drives(page, watch);
   if (watch.alarm) write_first_pointer(page, watch);
   if (watch.diagnosis) {
-    page.section(fmt::format("The diagnosis of the drives from {} on", watch.drives[watch.since].id));
+    page.section(
+        fmt::format("The diagnosis of the drives from {} on", watch.drives[watch.diagnosed_since].id));
     write_diagnosis(page, *watch.diagnosed, *watch.diagnosis, charts);
   } else {
     page.paragraph(fmt::format("Slipway {}, campaign fingerprint {}", version(), watch.campaign_fingerprint));

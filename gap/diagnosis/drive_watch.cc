@@ -104,6 +104,15 @@ std::vector<ChangeShare> causes_of(const Changes& changes, const std::vector<dou
   return causes;
 }
 
+// A third of the evidence is no reason to prefer the one to the other.
+std::size_t last_about_as_probable(const std::vector<double>& shares) {
+  constexpr double kAboutAsProbable = 1.0 / 3.0;
+  const double most = *std::max_element(shares.begin(), shares.end());
+  std::size_t last = shares.size() - 1;
+  while (shares[last] < kAboutAsProbable * most) --last;
+  return last;
+}
+
 Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
                     const DiagnosisOptions& diagnosis, Progress& progress, DriveWatch& watch) {
   const auto believed = prepare_as_believed(campaign, diagnosis, progress);
@@ -128,6 +137,7 @@ Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
       watch.since = detector.most_probable_start();
       watch.onset_shares = detector.start_shares();
       watch.onset = fewest_with(watch.onset_shares, kOnsetPart);
+      watch.diagnosed_since = last_about_as_probable(watch.onset_shares);
       watch.causes = causes_of(changes, detector.kind_shares());
     }
     watch.drives.push_back(
@@ -169,7 +179,7 @@ Result<DriveWatch> watch_drives(const DriveCampaign& campaign, const DriveCampai
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the watch was cancelled");
   if (!result.alarm || !watch.diagnose) return result;
   // Drives before the change are healthy too, where they are of the same campaign.
-  const std::size_t first = own + result.since;
+  const std::size_t first = own + result.diagnosed_since;
   const DriveCampaign before = reference == nullptr ? drives_from_to(campaign, 0, first) : healthy;
   const DriveCampaign changed = drives_from_to(campaign, first, all);
   auto diagnosis = diagnose_since(before, changed, options, progress);

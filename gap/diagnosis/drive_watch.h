@@ -36,6 +36,9 @@ struct ChangeShare {
 // Of the evidence of a change, what the drives together have that are told as the range of its onset.
 inline constexpr double kOnsetPart = 0.9;
 
+// Of the first drives, how many a watch without a reference learns from.
+inline constexpr int kFewestLearnt = 3, kMostLearnt = 2000;
+
 struct DriveWatch {
   std::string campaign, campaign_fingerprint;
   std::string reference, reference_fingerprint;  // the campaign's own name where its first drives were learnt
@@ -51,7 +54,10 @@ struct DriveWatch {
   // Most probable first: a first pointer, by derivatives at the moment of the alarm. Where there is a
   // diagnosis, that is the answer.
   std::vector<ChangeShare> causes;
-  std::optional<Diagnosis> diagnosis;  // of the drives since then
+  // The first drive that is diagnosed: of those that are about as probable as `since` the last, since drives
+  // before it may be healthy, and would blur what has changed.
+  std::size_t diagnosed_since = 0;
+  std::optional<Diagnosis> diagnosis;  // of the drives from there on
   // The campaign that was diagnosed, for documents.
   std::optional<DriveCampaign> diagnosed;
 };

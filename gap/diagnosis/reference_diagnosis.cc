@@ -25,6 +25,15 @@ std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaig
     faults.push_back(
         {"/reference", fmt::format("the reference's gravity is {} m/s2, the campaign's {}: must be the same",
                                    reference.gravity_m_s2, campaign.gravity_m_s2)});
+  const auto twin = std::find_if(campaign.drives.begin(), campaign.drives.end(), [&](const auto& drive) {
+    return std::any_of(reference.drives.begin(), reference.drives.end(),
+                       [&](const auto& healthy) { return healthy.id == drive.id; });
+  });
+  const bool same_files = !campaign.fingerprint.empty() && campaign.fingerprint == reference.fingerprint;
+  if (same_files && twin != campaign.drives.end())
+    faults.push_back({"/reference", fmt::format("drive {} is among the reference's drives too: must be other "
+                                                "drives than those that are diagnosed",
+                                                twin->id)});
   return faults;
 }
 

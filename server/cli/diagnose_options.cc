@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/largest_exact_whole.h"
+#include "gap/diagnosis/drive_watch.h"
 #include "server/cli/data_option.h"
 #include "server/cli/diagnose_command.h"
 #include "server/cli/watch_command.h"
@@ -70,7 +71,7 @@ void add_watch_command(CLI::App& app, std::function<int()>& run) {
       ->add_option("--learn", options->learn,
                    "without a reference: so many of the campaign's first drives are taken as healthy")
       ->capture_default_str()
-      ->check(CLI::Range(3, 10'000))
+      ->check(CLI::Range(gap::kFewestLearnt, gap::kMostLearnt))
       ->excludes(reference);
   command
       ->add_option("--alpha", options->alpha,

@@ -70,11 +70,14 @@ TEST_F(AWatchRequest, TellsEveryFaultAtItsPlace) {
 }
 
 TEST_F(AWatchRequest, TakesTheDrivesOfACampaignAndLearnsFromItsFirstOrFromAReference) {
-  const auto first = read(R"({"campaign":"small","learn":1})");
+  const auto first = read(R"({"campaign":"small","learn":3})");
   ASSERT_TRUE(first);
-  ASSERT_TRUE(first->faults.empty()) << first->faults.front().message;
+  ASSERT_EQ(first->faults.size(), 1U);
+  EXPECT_EQ(first->faults.front().pointer, "/learn") << "it has two drives";
+  EXPECT_EQ(faults(R"({"campaign":"small","learn":2})"), std::vector<std::string>{"/learn"}) << "too few";
+  EXPECT_EQ(faults(R"({"campaign":"small"})"), std::vector<std::string>{"/learn"}) << "twelve are";
   EXPECT_EQ(first->request.healthy, nullptr);
-  EXPECT_EQ(first->request.learn, 1);
+  EXPECT_EQ(first->request.learn, 3);
   EXPECT_EQ(first->request.watched.drives.size(), 2U);
   EXPECT_EQ(first->request.watched.fingerprint, load()->fingerprint);
   EXPECT_EQ(faults(R"({"campaign":"small","reference":"small","learn":2,"drives":[]})"),

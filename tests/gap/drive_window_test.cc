@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
+#include "gap/diagnosis/model/window_readings.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
@@ -82,6 +83,54 @@ TEST(DriveWindow, AnOutlierIsPassedOver) {
     if (o.channel == Channel::kCurrent) {
       EXPECT_NEAR(o.value, 0.2, 1e-9) << o.wheel;
     }
+}
+
+// The current that is passed over does not widen what the others tell.
+TEST(DriveWindow, AnOutlierLeavesTheScatterOfTheOthersAlone) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  campaign.measurement_std.current_relative = 0.02;
+  for (DriveSample& sample : campaign.drives[0].samples) sample.wheels[0].current_a = 0.3;  // no total
+  const auto std_of = [](const DriveCampaign& c) {
+    for (const Observation& o : cut_windows(c)[0].observations)
+      if (o.channel == Channel::kCurrent && o.wheel == 2) return o.sensor_std;
+    return 0.0;
+  };
+  const double without = std_of(campaign);
+  const double rows = static_cast<double>(campaign.drives[0].samples.size());
+  campaign.drives[0].samples[10].wheels[2].current_a = 40.0;
+  EXPECT_NEAR(std_of(campaign), without * std::sqrt(rows / (rows - 1.0)), 1e-12);
+}
+
+// The ends of a rover's turn were once passed over, other ones to the left than to the right.
+TEST(Readings, AreKeptOnSteadyTurnsToEitherSide) {
+  constexpr double kStd = 0.2, kTurn = 1.5;
+  for (const double sense : {1.0, -1.0}) {
+    Readings readings;
+    for (int i = 0; i < 16; ++i) {
+      readings.time_s.push_back(2.0 * i);
+      readings.value.push_back(sense * kTurn * i);
+    }
+    EXPECT_EQ(readings.kept(kStd, {}).count(), 16U);
+    readings.value[0] += sense * 2.0;
+    readings.value[7] -= sense * 2.0;
+    const Readings left = readings.kept(kStd, {});
+    EXPECT_EQ(left.count(), 14U);
+    EXPECT_EQ(left.time_s.front(), 2.0) << "an end can be an outlier as well";
+  }
+}
+
+// A rover that was to turn in place and did not says that it slips, and how far its motors are loaded in
+// a way that the model has no answer to: the same as of one that was to drive on.
+TEST(DriveWindow, ATurnInPlaceThatIsStuckIsCensored) {
+  DriveCampaign campaign = constant_motion(0.0, 0.0, 0.05 * 0.3, 0.0, 0.0, 0.0, 0.0);
+  campaign.drives[0].command.turn_in_place = true;
+  campaign.drives[0].command.turn_rate_rad_s = 0.3;
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  ASSERT_FALSE(windows.empty());
+  EXPECT_NEAR(*value_of(windows[0], Channel::kSlip), 0.95, 1e-6);
+  EXPECT_TRUE(windows[0].censored);
+  campaign.drives[0].command.turn_rate_rad_s = 0.016;
+  EXPECT_FALSE(cut_windows(campaign)[0].censored);
 }
 
 TEST(DriveWindow, RowsBeforeTheRoverSetsOffAndAfterItHaltsAreLeftOut) {

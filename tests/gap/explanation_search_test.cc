@@ -62,6 +62,11 @@ TEST(Weigh, IsTheMixtureOfSharesEachNormalisedByItself) {
   EXPECT_NEAR(c[1].probability, 0.75 * (1.0 - first) + 0.25 * 0.8, 1e-12);
 }
 
+// A search that is cancelled before anything was fitted has nothing to weigh.
+TEST(Weigh, LeavesNoCandidatesAlone) {
+  rank({}, EvidenceOptions{});
+}
+
 TEST(Weigh, SumsOverTheWaysInWhichAnEffectCouldBeAtWork) {
   std::vector<Candidate> c(2);
   c[0].log_evidence = 10.0;

@@ -97,7 +97,7 @@ hot="$(ls "$folder"/hot/D*-log.csv | head -n 1)"
 awk -F ';' -v OFS=';' 'NR == 7 { $12 = 5000 } 1' "$hot" >"$hot.part" && mv "$hot.part" "$hot"
 status=0
 "$slipway" import "$folder/hot/yard.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
-[ "$status" = 2 ] && grep -q "made of $(basename "$hot"), line 7 (T_K_FL)" "$folder/err"
+[ "$status" = 2 ] && grep -q "$(basename "$hot"), line 7 (T_K_FL): " "$folder/err"
 
 # Stamps since 1970 stay as they are; a clock or a unit that is taken for another is told.
 sed -e 's/unit = "ms"/unit = "ms"\nzero = "recorded"/' "$folder/team/yard.toml" >"$folder/team/epoch.toml"

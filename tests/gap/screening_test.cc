@@ -12,6 +12,16 @@ namespace {
 using testing::parameter;
 using testing::random_matrix;
 
+// A parameter that no drive shows, whose column is 0, once took what the first reading said for its own.
+TEST(SpannedBy, HasNothingOfZerosAndOfWhatOthersMakeUp) {
+  Eigen::MatrixXd columns(6, 3);
+  columns << Eigen::VectorXd::Ones(6), Eigen::VectorXd::Zero(6), 2.0 * Eigen::VectorXd::Ones(6);
+  const Eigen::MatrixXd basis = spanned_by(columns);
+  ASSERT_EQ(basis.cols(), 1);
+  EXPECT_LT((basis * basis.transpose() - Eigen::MatrixXd::Constant(6, 6, 1.0 / 6.0)).norm(), 1e-12);
+  EXPECT_EQ(spanned_by(Eigen::MatrixXd::Zero(6, 2)).cols(), 0);
+}
+
 // Of one column a beside nothing: estimate a.r / (1 + a.a), gain (a.r)^2 / 2 (1 + a.a) - log(1 + a.a) / 2.
 TEST(LinearGain, OfOneColumnHasAClosedForm) {
   const Eigen::Vector3d r(3.0, -1.0, 2.0), a(1.0, 0.0, 2.0);

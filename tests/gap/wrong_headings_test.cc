@@ -125,6 +125,23 @@ TEST(WrongHeadings, FromAnotherZeroAreTurnedBackOnASlope) {
       "heading_offset", -0.2);
 }
 
+// Positions in another scale read the way aside in it as well.
+TEST(WrongDistances, ScaleSlipAndSideSlipAlike) {
+  constexpr double kGain = 0.2;
+  DriveCampaign campaign =
+      arc_recorded_along([](double turned) { return kFirstYaw_rad + turned; }, kSpeed_m_s, 18.0);
+  const Eigen::Vector3d first = campaign.drives.front().samples.front().p_MB;
+  for (DriveSample& sample : campaign.drives.front().samples)
+    sample.p_MB.head<2>() = first.head<2>() + (1.0 + kGain) * (sample.p_MB - first).head<2>();
+  double most_aside = 0.0;
+  for (const Row& row : rows_of(campaign, "distance_gain", kGain)) {
+    if (row.channel != Channel::kSlip && row.channel != Channel::kSideSlip) continue;
+    EXPECT_NEAR(row.measured, row.predicted, 0.002) << name_of(row.channel);
+    if (row.channel == Channel::kSideSlip) most_aside = std::max(most_aside, std::abs(row.measured));
+  }
+  EXPECT_GT(kGain / (1.0 + kGain) * most_aside, 0.01) << "which could be missed";
+}
+
 TEST(WrongHeadings, ATurnInPlaceReadsSlower) {
   DriveCampaign campaign =
       arc_recorded_along([](double turned) { return kFirstYaw_rad + turned; }, kSpeed_m_s);

@@ -82,7 +82,7 @@ class Placing {
       if (column.to == name) from = column.from;
     const std::size_t row = *line - kHeaderLines - 1;
     all_.push_back({fmt::format("{}#/{}/{}", drive->log, drive->lines[row], from),
-                    fmt::format("{} (made of {})", fault.message, place_in_log(*drive, row, from))});
+                    fmt::format("{}: {}", place_in_log(*drive, row, from), without_place(fault.message))});
   }
 
   // The header of every drive is made of the mapping's columns: what it lacks is told once, and not where a

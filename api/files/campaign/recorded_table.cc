@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -35,6 +36,7 @@ class TableReader {
                               lines[0].number, wrong.value_or("the header is a single column")));
       return table;
     }
+    refuse_twins(lines[0].number, asked, table.names);
     for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
     if (count_ > kMaxFaultsOfFile)
       faults_.push_back(
@@ -50,6 +52,16 @@ class TableReader {
 
   void fault(const std::string& place, const std::string& message) {
     if (++count_ <= kMaxFaultsOfFile) faults_.push_back({file_ + "#" + place, message});
+  }
+
+  // Which of two columns of one name is meant, nobody can say.
+  void refuse_twins(std::size_t line, const std::set<std::string>& asked,
+                    const std::vector<std::string>& names) {
+    for (const std::string& name : asked)
+      if (const auto count = std::count(names.begin(), names.end(), name); count > 1)
+        fault(fmt::format("/{}/{}", line, name),
+              fmt::format("{}, line {} ({}): {} columns have this name, must be one: rename the others",
+                          file_, line, name, count));
   }
 
   void read_row(const CsvLine& line, const std::set<std::string>& asked, RecordedTable& table) {

@@ -25,9 +25,9 @@ std::string diagnosis_words(const gap::DriveWatch& watch) {
   std::vector<std::string> effects;
   for (const gap::FoundEffect& e : d.effects)
     effects.push_back(fmt::format("{} (probability {:.2f})", e.name, e.probability));
-  return fmt::format("diagnosis of the drives from {} on: {}{}{}\n{}\n", watch.drives[watch.since].id,
-                     gap::name_of(d.verdict), effects.empty() ? "" : ": ", fmt::join(effects, ", "),
-                     d.reason);
+  return fmt::format("diagnosis of the drives from {} on: {}{}{}\n{}\n",
+                     watch.drives[watch.diagnosed_since].id, gap::name_of(d.verdict),
+                     effects.empty() ? "" : ": ", fmt::join(effects, ", "), d.reason);
 }
 
 std::string watch_words(const gap::DriveWatch& watch) {
