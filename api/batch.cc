@@ -7,6 +7,7 @@
 #include "api/documents/batch_document.h"
 #include "api/job_kinds.h"
 #include "api/json/faults.h"
+#include "core/part_of_progress.h"
 
 namespace slipway::api {
 namespace {
@@ -15,21 +16,6 @@ namespace {
 std::string part_of(const BatchRequest& batch, std::size_t number) {
   return fmt::format("{}\n{}", batch.kind, batch.requests[number]);
 }
-
-// Progress of one of several works of the same size.
-class OneOfMany final : public Progress {
- public:
-  OneOfMany(Progress& all, std::size_t number, std::size_t count)
-      : all_(all), begun_(static_cast<double>(number)), count_(static_cast<double>(count)) {}
-  void report(std::string_view stage, double fraction) override {
-    all_.report(stage, (begun_ + fraction) / count_);
-  }
-  bool cancelled() const override { return all_.cancelled(); }
-
- private:
-  Progress& all_;
-  const double begun_, count_;
-};
 
 }  // namespace
 
@@ -54,8 +40,10 @@ Result<BatchRequest> read_batch(const Service& service, std::string_view body) {
 
 Result<BatchAnswer> run_batch(const Service& service, const BatchRequest& request, Progress& progress) {
   BatchAnswer answer{request.kind, {}};
+  const auto share = 1.0 / static_cast<double>(request.requests.size());
   for (std::size_t k = 0; k < request.requests.size(); ++k) {
-    OneOfMany one(progress, k, request.requests.size());
+    const auto begun = static_cast<double>(k) * share;
+    PartOfProgress one(progress, begun, begun + share);
     auto part = batch_part(service, part_of(request, k), one);
     if (!part) return fail(part.error());
     answer.documents.push_back(std::move(part->bytes));

@@ -60,18 +60,4 @@ class JobProgress final : public Progress {
   mutable std::string best_so_far_;  // that is not written yet
 };
 
-// What is left of a work of which a share is done.
-class RestOfProgress final : public Progress {
- public:
-  RestOfProgress(Progress& all, double done) : all_(all), done_(done) {}
-  void report(std::string_view stage, double fraction) override {
-    all_.report(stage, done_ + (1.0 - done_) * fraction);
-  }
-  bool cancelled() const override { return all_.cancelled(); }
-
- private:
-  Progress& all_;
-  const double done_;
-};
-
 }  // namespace slipway::api

@@ -12,6 +12,7 @@
 
 #include "api/jobs/job_admission.h"
 #include "api/json/problem_document.h"
+#include "core/part_of_progress.h"
 #include "core/utc.h"
 
 namespace slipway::api {
@@ -280,7 +281,7 @@ bool JobRunner::divided(const ClaimedJob& claimed) {
 Result<JobAnswer> JobRunner::work_on(const ClaimedJob& claimed, Progress& progress) {
   if (!claimed.job.whole.empty()) return in_parts_.part(claimed.job.kind, claimed.request, progress);
   if (claimed.job.parts.count == 0) return work_(claimed.job.kind, claimed.request, progress);
-  RestOfProgress rest(progress, kShareOfParts);
+  PartOfProgress rest(progress, kShareOfParts, 1.0);
   return put_together(*store_, in_parts_, claimed, rest);
 }
 

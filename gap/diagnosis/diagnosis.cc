@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/angle.h"
+#include "core/part_of_progress.h"
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/measurement_proposals.h"
@@ -44,6 +45,9 @@ DiagnosisOptions with_reference(DiagnosisOptions options) {
   return options;
 }
 
+// Fractions of a diagnosis that are done by then.
+constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79;
+
 class Diagnoser {
  public:
   Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
@@ -61,7 +65,7 @@ class Diagnoser {
     describe_preparation();
     d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
     if (too_few()) return std::move(d_);
-    if (auto searched = search(options_); !searched) return fail(searched.error());
+    if (auto searched = search(options_, kPrepared, kSearched); !searched) return fail(searched.error());
     if (auto searched = search_again(); !searched) return fail(searched.error());
     const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
     name_and_judge(drives);
@@ -132,10 +136,13 @@ class Diagnoser {
     return true;
   }
 
-  Result<void> search(const DiagnosisOptions& options, std::span<const FittedExplanation> found_before = {}) {
+  // From one fraction of the diagnosis to another.
+  Result<void> search(const DiagnosisOptions& options, double begun, double ended,
+                      std::span<const FittedExplanation> found_before = {}) {
+    PartOfProgress progress(progress_, begun, ended);
     const auto look = options_.given ? fit_given_explanation : search_explanations;
     auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.discrepancy,
-                      options, progress_, found_before);
+                      options, progress, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
     best_ = best_form(search_, chosen_among(search_.candidates, options_.selection),
@@ -155,11 +162,12 @@ class Diagnoser {
     again.search.max_refitted = std::min(again.search.max_refitted, second.max_refitted);
     again.search.max_paired = std::min(again.search.max_paired, second.max_paired);
     again.search.max_seconds = std::min(again.search.max_seconds, second.max_seconds);
-    return search(again, most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
+    return search(again, kSearched, kSearchedAgain,
+                  most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
   }
 
   void name_and_judge(const DriveResampling& drives) {
-    progress_.report("weighing single effects", 0.79);
+    progress_.report("weighing single effects", kSearchedAgain);
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);

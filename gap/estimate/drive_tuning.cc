@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/parallel_for.h"
+#include "core/part_of_progress.h"
 
 namespace slipway::gap {
 namespace {
@@ -107,20 +108,6 @@ std::size_t widest_of(const DriveTuning& tuning) {
   }
   return widest;
 }
-
-// A part of the work, which reports itself as such.
-class Part final : public Progress {
- public:
-  Part(Progress& whole, double begin, double end) : whole_(whole), begin_(begin), end_(end) {}
-  void report(std::string_view stage, double fraction) override {
-    whole_.report(stage, begin_ + (end_ - begin_) * fraction);
-  }
-  bool cancelled() const override { return whole_.cancelled(); }
-
- private:
-  Progress& whole_;
-  double begin_, end_;
-};
 
 class Fitter {
  public:
@@ -297,14 +284,14 @@ Result<void> fit_all(const Fitter& fitter, const TuningOptions& options, std::si
   std::iota(all.begin(), all.end(), 0);
   const double fits = options.fit_each_tilt ? 1.0 + static_cast<double>(tuning.tilts.size()) : 1.0;
   const double each = (1.0 - kSweepShare) / fits;
-  Part first(progress, kSweepShare, kSweepShare + each);
+  PartOfProgress first(progress, kSweepShare, kSweepShare + each);
   auto fit = fitter.fit(all, tuning.sweep.points[tuning.sweep.best].x, first);
   if (!fit) return fail(fit.error());
   tuning.fit = std::move(*fit);
   for (std::size_t k = 0; options.fit_each_tilt && k < tuning.tilts.size(); ++k) {
     TiltGroup& group = tuning.tilts[k];
     const double begin = kSweepShare + each * static_cast<double>(k + 1);
-    Part part(progress, begin, begin + each);
+    PartOfProgress part(progress, begin, begin + each);
     auto of_tilt = fitter.fit(group.drives, tuning.sweep.points[group.best].x, part);
     if (!of_tilt) return fail(of_tilt.error());
     group.fit = std::move(*of_tilt);
@@ -335,7 +322,7 @@ Result<DriveTuning> tune_drives(std::span<const TunedParameter> parameters,
   };
   std::vector<double> repeats;
   for (const MeasuredDrive& drive : drives) repeats.push_back(static_cast<double>(drive.finals.size()));
-  Part sweeping(progress, 0.0, options.least_squares ? kSweepShare : 1.0);
+  PartOfProgress sweeping(progress, 0.0, options.least_squares ? kSweepShare : 1.0);
   auto sweep = sweep_coarse_then_fine(swept, repeats, score, options.threads, sweeping);
   if (!sweep) return fail(sweep.error());
   DriveTuning tuning{.sweep = std::move(*sweep),

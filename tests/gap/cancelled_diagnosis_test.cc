@@ -31,9 +31,11 @@ class Watch final : public Progress {
  public:
   Watch(std::string stage, double after_s) : stage_(std::move(stage)), after_s_(after_s) {}
 
-  void report(std::string_view stage, double /*fraction*/) override {
+  void report(std::string_view stage, double fraction) override {
     const std::scoped_lock lock(mutex_);
     now_ = stage;
+    if (fraction < fraction_) back_in_ = stage;
+    fraction_ = fraction;
     if (stage == stage_ && cancel_at_ == 0.0) cancel_at_ = processor_s() + after_s_;
   }
   bool cancelled() const override {
@@ -49,6 +51,8 @@ class Watch final : public Progress {
   double cancel_at() const { return cancel_at_; }
   double longest_s() const { return longest_s_; }
   const std::string& where() const { return in_; }
+  // The stage that began with a smaller fraction than the one before; empty: progress never fell.
+  const std::string& back_in() const { return back_in_; }
 
  private:
   std::string stage_;
@@ -56,7 +60,8 @@ class Watch final : public Progress {
   mutable std::mutex mutex_;
   double cancel_at_ = 0.0;
   mutable double asked_ = 0.0, longest_s_ = 0.0;
-  std::string now_;
+  double fraction_ = 0.0;
+  std::string now_, back_in_;
   mutable std::string in_;
 };
 
@@ -74,6 +79,7 @@ TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
       const auto diagnosis = diagnose(campaign, options, watch);
       const double stopped = processor_s();
       ASSERT_GT(watch.cancel_at(), 0.0) << stage << " is no stage of a diagnosis";
+      EXPECT_TRUE(watch.back_in().empty()) << "progress went back in: " << watch.back_in();
       if (diagnosis) continue;  // it was done before
       EXPECT_EQ(diagnosis.error().code, ErrorCode::kCancelled);
       EXPECT_LT(stopped - watch.cancel_at(), kPromised_s) << stage << " + " << after_s << " s";

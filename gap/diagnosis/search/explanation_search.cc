@@ -28,9 +28,9 @@ class Searcher {
         options_(options),
         progress_(progress),
         variants_(campaign, model, noise, discrepancy, options_) {
-    progress.report("looking for soft places", 0.18);
+    progress.report("looking for soft places", 0.0);
     variants_.add_places_beside(null);
-    progress.report("screening effects", 0.2);
+    progress.report("screening effects", 0.04);
     variants_.screen(null);
     search_.fits.push_back(std::move(null));
     for (const ScreenedEffect& s : variants_.screened())
@@ -48,7 +48,7 @@ class Searcher {
       std::set<std::string> names;
       for (const EffectVariant& v : before.hypothesis.effects()) names.insert(v.effect);
       if (names.empty()) continue;
-      progress_.report("fitting what was found again", 0.22);
+      progress_.report("fitting what was found again", 0.08);
       const std::size_t index = add_fit(before.hypothesis, before.x);
       if (names.size() == 1) {
         best_fit_[*names.begin()] = index;
@@ -70,8 +70,9 @@ class Searcher {
       if (!known && alike >= (outside ? options_.search.max_outside : options_.search.max_refitted)) continue;
       if (tried_[v.effect] >= options_.search.max_variants) continue;
       ++tried_[v.effect];
-      progress_.report("fitting effects", 0.25 + 0.3 * static_cast<double>(search_.fits.size()) /
-                                                     (2.0 * options_.search.max_refitted));
+      progress_.report("fitting effects",
+                       0.1 + 0.4 * std::min(1.0, static_cast<double>(search_.fits.size()) /
+                                                     (2.0 * options_.search.max_refitted)));
       const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
       FittedExplanation& fit = search_.fits[index];
       if (const std::vector<double>* const other = variants_.start_from_nominal(s.variant))
@@ -121,7 +122,7 @@ class Searcher {
         if (!from_outside && fitted >= options_.search.max_seconds) continue;
         const std::set<std::string> names{singles_[s].first, v.effect};
         if (pairs_.contains(names) || !done.insert(v.effect).second) continue;
-        progress_.report("fitting pairs of effects", 0.55 + 0.08 * static_cast<double>(s));
+        progress_.report("fitting pairs of effects", 0.5 + 0.1 * static_cast<double>(s));
         std::vector<EffectVariant> effects(search_.fits[base].hypothesis.effects().begin(),
                                            search_.fits[base].hypothesis.effects().end());
         effects.push_back(v);

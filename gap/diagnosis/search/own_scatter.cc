@@ -196,7 +196,7 @@ class ScatterComparison {
   // searched from these scales in so many rounds. Its candidates keep it where it is the best so far.
   ScatteredExplanation compare(std::size_t index, const FittedExplanation& fit, const NoiseScales& from,
                                int rounds) {
-    progress_.report("estimating the scatter beside explanations", 0.74);
+    progress_.report("estimating the scatter beside explanations", 0.9);
     ScatteredExplanation own =
         ScatterSearch(campaign_, model_, noise_, discrepancy_, options_).beside(fit, from, rounds);
     bool better = false;
