@@ -304,10 +304,9 @@ class Diagnoser {
     d_.held_out = std::move(closure->points);
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
-    withdraw_what_tells_no_better(closure->log_density_gain, options_.verdict, d_);
-    doubt_answer(
-        {reported_fit(), named_share_, evidence_over_nothing(best(), search_.candidates), furthest_scatter()},
-        options_.verdict, d_);
+    const double log_evidence = evidence_over_nothing(best(), search_.candidates);
+    withdraw_what_tells_no_better(closure->log_density_gain, log_evidence, options_.verdict, d_);
+    doubt_answer({reported_fit(), named_share_, log_evidence, furthest_scatter()}, options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);

@@ -244,9 +244,16 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
   }
 }
 
-void withdraw_what_tells_no_better(double log_density_gain, const VerdictOptions& options, Diagnosis& d) {
+void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
+                                   const VerdictOptions& options, Diagnosis& d) {
   const bool names_effects = d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet;
-  if (!names_effects || d.partial || log_density_gain > 0.0 || all_stand(d, options)) return;
+  if (!names_effects || d.partial || log_density_gain > 0.0) return;
+  const bool is_strong = log_evidence >= options.strong_evidence;
+  if (of_each_named(d, options, [&](const EffectMarginal& m) {
+        return stands_beside_unknown(m, options) ||
+               (is_strong && m.closed_share >= options.min_partial_share);
+      }))
+    return;
   const std::vector<std::string> names = named(d);
   d.verdict = Verdict::kParameters;
   d.reason = fmt::format(

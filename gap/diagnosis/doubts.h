@@ -17,8 +17,10 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 
 // Effects with which drives held out of the fit are told no better than re-tuned (their log density gains
 // nothing) are not named, however probable they are on the drives that they were fitted to; but those that
-// close most of the gap by the fits' own robust loss are (stands_beside_unknown).
-void withdraw_what_tells_no_better(double log_density_gain, const VerdictOptions& options, Diagnosis& d);
+// close most of the gap by the fits' own robust loss are, where they are as probable as beside something
+// unknown (stands_beside_unknown) or their log evidence over nothing is strong_evidence.
+void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
+                                   const VerdictOptions& options, Diagnosis& d);
 
 // What is held against an answer besides its probability.
 struct ReportedAnswer {

@@ -349,11 +349,13 @@ TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
 // A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that
 // they were fitted to, and worth nothing on others.
 TEST(Verdict, DoesNotNameWhatTellsHeldOutDrivesNoBetter) {
-  const auto told = [](double log_density_gain, bool partial, double closed_share = 0.4) {
+  const auto told = [](double log_density_gain, bool partial, double closed_share = 0.4,
+                       double probability = 1.0, double log_evidence = 20.0) {
     Diagnosis d = answer_with(Verdict::kEffects, 1.0);
     d.partial = partial;
     d.marginals.front().closed_share = closed_share;
-    withdraw_what_tells_no_better(log_density_gain, {}, d);
+    d.marginals.front().probability = probability;
+    withdraw_what_tells_no_better(log_density_gain, log_evidence, {}, d);
     return d;
   };
   EXPECT_EQ(told(8.0, false).effects.size(), 1U);
@@ -364,8 +366,11 @@ TEST(Verdict, DoesNotNameWhatTellsHeldOutDrivesNoBetter) {
   EXPECT_EQ(withdrawn.gap.front().with_effects.value, withdrawn.gap.front().retuned.value);
   EXPECT_EQ(told(-0.5, true).effects.size(), 1U) << "beside something unknown the shares have decided";
   EXPECT_EQ(told(-4.2, false, 0.9).effects.size(), 1U) << "it closes most of the gap";
+  EXPECT_TRUE(told(-20.0, false, 0.64, 0.85).effects.empty());
+  EXPECT_EQ(told(-20.0, false, 0.64, 0.85, 154.0).effects.size(), 1U) << "and its evidence is strong";
+  EXPECT_TRUE(told(-20.0, false, 0.4, 0.85, 154.0).effects.empty()) << "it closes too little";
   Diagnosis nothing = answer_with(Verdict::kNoGap, 1.0);
-  withdraw_what_tells_no_better(0.0, {}, nothing);
+  withdraw_what_tells_no_better(0.0, 0.0, {}, nothing);
   EXPECT_EQ(nothing.verdict, Verdict::kNoGap);
 }
 
