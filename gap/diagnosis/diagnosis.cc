@@ -184,7 +184,8 @@ class Diagnoser {
             [&](const Candidate& c) {
               return scatter_beyond_belief(furthest_scatter(), options_.verdict) ||
                      beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict);
-            }};
+            },
+        .scatter_is_beyond = scatter_beyond_belief(furthest_scatter(), options_.verdict).has_value()};
     most_believed_ = best_;
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);

@@ -159,6 +159,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
       names.insert(m.name);
   if (const Names all = set_of(library_effects_of(first)); stand_together(all, marginals, shares, options))
     names.insert(all.begin(), all.end());
+  if (beliefs.scatter_is_beyond) std::erase_if(names, may_be_wheel_law);
   if (names.empty()) return as_chosen(search, chosen);
   const auto has_names = [&](const Candidate& c) { return set_of(library_effects_of(c)) == names; };
   const auto any = candidate_where(search, [&](const Candidate& c) { return c.unknown() && has_names(c); });

@@ -36,6 +36,8 @@ struct Beliefs {
   std::function<double(const Candidate& candidate)> closure_shift;  // furthest_closure(), without its sign
   // beyond_belief(), or a scatter between drives beyond VerdictOptions::max_scatter
   std::function<bool(const Candidate& candidate)> are_bent_beyond;
+  // A scale of the scatter between drives is: the wheel law may be another one.
+  bool scatter_is_beyond = false;
 };
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
@@ -55,7 +57,8 @@ struct Beliefs {
 // them has that probability, closes min_closed_share, and closes min_partial_share of what the others leave.
 // Where what was chosen is a cause from outside, so that the unknown has a known form, min_share_beside_form
 // does with min_probability_beside_form, or min_probability_closing_most of an effect that closes
-// min_partial_share.
+// min_partial_share. Beside something unknown nothing that may be how another wheel law differs
+// (may_be_wheel_law) is named where the drives' scatter is beyond belief.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const Beliefs& beliefs, const VerdictOptions& options);

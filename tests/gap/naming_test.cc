@@ -29,7 +29,7 @@ ExplanationSearch search_of(std::vector<Candidate> candidates) {
 Naming named(const ExplanationSearch& search, const std::vector<EffectMarginal>& marginals,
              const VerdictOptions& options = {}, double outside = 1.0, double of_rest = 0.0,
              const Beliefs& beliefs = {[](const Candidate&) { return 0.0; },
-                                       [](const Candidate&) { return false; }}) {
+                                       [](const Candidate&) { return false; }, false}) {
   const auto of_gap = [&](const std::string& cause) {
     for (const EffectMarginal& m : marginals)
       if (m.name == cause) return m.closed_share;
@@ -79,6 +79,22 @@ TEST(Naming, NamesSeveralBesideAnUnknownCauseOfWhichEachClosesMostOfWhatTheOther
   EXPECT_TRUE(names(0.89, 0.40, 0.75).effects.empty()) << "a shadow, perhaps";
   EXPECT_TRUE(names(0.999, 0.04, 0.75).effects.empty()) << "next to nothing";
   EXPECT_TRUE(names(0.999, 0.40, 0.45).effects.empty()) << "most of what is left is something else";
+}
+
+// Drives of another physics: currents scatter by 13 to 15 times what was believed, and another wheel law
+// looks like a multi-pass effect. It was named beside a shifted load that is there.
+TEST(Naming, NamesNoWheelLawBesideAnUnknownCauseWhereDrivesScatterBeyondBelief) {
+  const ExplanationSearch search =
+      search_of({candidate({"com_offset", "multipass"}, 0.85, true), candidate({"com_offset"}, 0.1, true),
+                 candidate({"multipass"}, 0.04, true), candidate({}, 0.01)});
+  const auto names = [&](bool beyond) {
+    Beliefs beliefs{[](const Candidate&) { return 0.0; }, [](const Candidate&) { return false; }};
+    beliefs.scatter_is_beyond = beyond;
+    return named(search, {{"com_offset", 0.999, 0.32}, {"multipass", 0.998, 0.38}}, {}, 1.0, 0.6, beliefs);
+  };
+  EXPECT_EQ(names(false).effects, (std::vector<std::string>{"com_offset", "multipass"}));
+  EXPECT_EQ(names(true).effects, std::vector<std::string>{"com_offset"});
+  EXPECT_TRUE(names(true).partial);
 }
 
 TEST(Naming, LeavesOutWhatClosesNextToNothing) {
