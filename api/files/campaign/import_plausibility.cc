@@ -185,8 +185,8 @@ class Judge {
         const auto point = ground->at(sample.p_MB.x(), sample.p_MB.y());
         if (!point) continue;
         const Attitude stands = on_ground(point->normal, sample.attitude.yaw_rad);
-        const double share = sample.attitude.*angle / (stands.*angle);
-        if (std::abs(stands.*angle) > kTilted_rad && std::isfinite(share)) shares.push_back(share);
+        if (std::abs(stands.*angle) < kTilted_rad || !std::isfinite(sample.attitude.*angle)) continue;
+        shares.push_back(sample.attitude.*angle / (stands.*angle));
       }
     if (shares.size() < kLeastRows) return;
     const double half = median(std::move(shares));
