@@ -119,8 +119,8 @@ TEST(Readings, AreKeptOnSteadyTurnsToEitherSide) {
   }
 }
 
-// A rover that was to turn in place and did not says that it slips, and how far its motors are loaded in
-// a way that the model has no answer to: the same as of one that was to drive on.
+// Of a rover that was to turn in place and hardly did, a window says no more than that it is stuck, as of one
+// that was to drive on.
 TEST(DriveWindow, ATurnInPlaceThatIsStuckIsCensored) {
   DriveCampaign campaign = constant_motion(0.0, 0.0, 0.05 * 0.3, 0.0, 0.0, 0.0, 0.0);
   campaign.drives[0].command.turn_in_place = true;
