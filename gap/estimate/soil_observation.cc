@@ -215,7 +215,8 @@ void SoilObservations::put_on(const RigAt& rig, Group& g) {
     if (test.slip_radius == sim::SlipRadius::kShear) test.soil = rig.soil;
     g.motions[i] = sim::motion_of(test);
     g.rim_speeds_m_s[i] = sim::rim_speed_m_s(test);
-    g.soils[i] = sim::soil_in_force(rig.soil, test.gravity_m_s2, g.rim_speeds_m_s[i], test.in_a_track);
+    g.soils[i] =
+        sim::soil_in_force(rig.soil, test.gravity_m_s2, g.rim_speeds_m_s[i], test.in_a_track ? 1.0 : 0.0);
     if (test.sinkage_m) g.angles[i] = sim::entry_angle_rad(rig.wheel.radius_m, *test.sinkage_m);
   }
 }

@@ -49,12 +49,10 @@ WheelContacts::WheelContacts(const RoverModel& rover, double gravity_m_s2, int p
 
 void WheelContacts::set_soil(std::size_t k, const Soil& soil, double rim_speed_m_s) {
   Place& place = places_[k];
-  place.soil = soil_in_force(soil, gravity_m_s2_, rim_speed_m_s, false);
+  place.soil = soil_in_force(soil, gravity_m_s2_, rim_speed_m_s, 0.0);
   place.numbers = numbers_of(place.geometry, place.soil, 0.0, {});
-  place.stiffening = soil.multipass_stiffening;
   place.rebound_share = rut_share(soil.multipass_stiffening, soil.pressure.n);
-  place.remembers = soil.multipass_stiffening > 0.0 || soil.bulldozing > 0.0;
-  place.track_bulldozing = soil.track_bulldozing;
+  place.remembers = remembers_tracks(soil);
   const double load = rover_.mass_kg * gravity_m_s2_ / static_cast<double>(places_.size());
   const double r = place.geometry.radius_m;
   // A soil that cannot carry the wheel at rest gets the maximum entry angle of the laws.
@@ -141,8 +139,9 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   WheelNumbers one = place.numbers;
   one.theta_f = contact.entry_angle_rad;
   one.leftward = -at.slip_y;
-  one.stiffness *= 1.0 + place.stiffening * contact.driven_on;
-  one.bulldozing *= 1.0 - contact.driven_on * (1.0 - place.track_bulldozing);
+  const TrackFactors track = track_factors(place.soil, contact.driven_on);
+  one.stiffness *= track.stiffness;
+  one.bulldozing *= track.bulldozing;
   const double turning =
       place.locked ? kBlended_standstills * place.commanded_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0

@@ -94,11 +94,10 @@ class WheelContacts {
  private:
   struct Place {
     WheelGeometry geometry;
-    Soil soil;                                     // in force on fresh ground
-    WheelNumbers numbers;                          // of wheel and soil
-    double stiffening = 0.0, rebound_share = 0.0;  // of a track, see multipass.h
-    bool remembers = false;                        // true where a track differs from fresh soil
-    double track_bulldozing = 0.0;                 // see Soil
+    Soil soil;                   // in force on fresh ground
+    WheelNumbers numbers;        // of wheel and soil
+    double rebound_share = 0.0;  // of a track, see multipass.h
+    bool remembers = false;      // true where a track differs from fresh soil
     double relaxation_m = 0.1, normal_damping_s_m = 0.0, tangential_damping_ns_m = 0.0;
     double commanded_direction = 1.0;
     bool locked = false;

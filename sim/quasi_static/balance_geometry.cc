@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/pose.h"
-#include "sim/rover/multipass.h"
 
 namespace slipway::sim {
 namespace {
@@ -45,7 +44,6 @@ BalanceGeometry::BalanceGeometry(const RoverModel& rover_model, double g_m_s2, c
       attainable_share(sim::attainable_share(rover_model, commanded)),
       drive(at_temperature(rover_model.drive,
                            commanded.motor_temp_c.value_or(rover_model.drive.reference_temp_c))),
-      leaders(sim::leaders(rover_model, commanded)),
       wheels(rover_model.wheels.size()) {
   const PerWheel<WheelCommand> commands = wheel_commands(rover_model, commanded);
   double fastest = kMinSpeedScale_m_s;

@@ -66,7 +66,6 @@ struct BalanceGeometry {
   double speed_scale_m_s;
   double attainable_share;  // of the commanded speed
   DriveMotor drive;         // at its temperature
-  PerWheel<int> leaders;
   std::vector<Wheel> wheels;
   Equilibrium gravity =
       Equilibrium::Zero();  // its part in the equations of equilibrium, with all that is added

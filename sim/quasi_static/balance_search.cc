@@ -205,6 +205,29 @@ Attempt bracketed_in_contact(RoverBalance& balance, const Primary& primary, Vect
   return {Outcome::kNotConverged, -1};
 }
 
+// For wheels whose shares in tracks change so much with the motion that the other searches go to and fro. The
+// shares are held while the balance is found, and follow its motion half way, until a search finds the
+// balance with shares that follow.
+Attempt with_held_tracks(RoverBalance& balance, const Primary& primary, Vector& x) {
+  constexpr int kMaxRounds = 20;
+  x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    balance.hold_tracks(x, 0.5);
+    Attempt held;
+    if (!find_in_contact(balance, 40, x)) {
+      x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
+      held = bracketed_in_contact(balance, primary, x);
+    }
+    balance.release_tracks();
+    if (held.outcome != Outcome::kMoving) return held;
+    Vector following = x;
+    if (!find_in_contact(balance, 20, following)) continue;
+    x = following;
+    return judged(balance, primary, x);
+  }
+  return {Outcome::kNotConverged, -1};
+}
+
 }  // namespace
 
 Primary primary_of(const DriveCommand& command) {
@@ -238,7 +261,9 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
   }
   if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
-  return bracketed_in_contact(balance, primary, x);
+  const Attempt attempt = bracketed_in_contact(balance, primary, x);
+  const bool gave_up = attempt.outcome == Outcome::kNotConverged;
+  return gave_up && balance.follows_tracks() ? with_held_tracks(balance, primary, x) : attempt;
 }
 
 }  // namespace slipway::sim

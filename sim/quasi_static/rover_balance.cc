@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "core/pose.h"
-#include "sim/rover/multipass.h"
-#include "sim/soil/soil_in_force.h"
 #include "sim/wheel/entry_angle.h"
 #include "sim/wheel/free_wheel.h"
 
@@ -44,16 +42,68 @@ void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
   in_air_ = PerWheel<bool>(count, false);
   rut_shares_ = PerWheel<double>(count);
   in_contact_ = wheel_count();
+  tracks_.setZero(wheel_count(), wheel_count());
+  share_in_track_ = fresh_stiffness_ = fresh_bulldozing_ = PerWheel<double>(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const bool in_a_track = geometry_.leaders[k] >= 0;
-    if (in_a_track) rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
-    soils_[k] = soil_in_force(soils_[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s,
-                              in_a_track);
+    if (soils_[k].multipass_stiffening > 0.0)
+      rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
+    soils_[k] =
+        soil_in_force(soils_[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0);
     numbers_[k] = numbers_of(geometry_.wheels[k].geometry, soils_[k], 0.0, {});
+    fresh_stiffness_[k] = numbers_[k].stiffness;
+    fresh_bulldozing_[k] = numbers_[k].bulldozing;
+    follows_tracks_ |= remembers_tracks(soils_[k]) && !geometry_.command.turn_in_place;
   }
   if (geometry_.undetermined == 0) return;
   set_sinkage_scale();
   set_compatibility();
+}
+
+TrackShares RoverBalance::tracks_in(const Vector& unknowns) const {
+  const Eigen::Vector2d d = geometry_.travel, e(-d.y(), d.x());
+  return tracks_followed(rover(), unknowns[0] * d + unknowns[1] * e,
+                         unknowns[2] / geometry_.half_wheelbase_m);
+}
+
+void RoverBalance::follow_tracks(const Vector& unknowns) {
+  if (follows_tracks_ && !holds_tracks_) set_tracks(tracks_in(unknowns));
+}
+
+void RoverBalance::hold_tracks(const Vector& unknowns, double way) {
+  holds_tracks_ = true;
+  at_.resize(0);
+  const TrackShares there = tracks_in(unknowns);
+  if (held_tracks_.size() == 0) held_tracks_ = there;
+  held_tracks_ += way * (there - held_tracks_);
+  set_tracks(held_tracks_);
+}
+
+void RoverBalance::release_tracks() {
+  holds_tracks_ = false;
+  at_.resize(0);
+}
+
+void RoverBalance::set_tracks(const TrackShares& tracks) {
+  tracks_ = tracks;
+  for (int k = 0; k < wheel_count(); ++k) {
+    share_in_track_[k] = tracks_.row(k).sum();
+    put_in_track(k, share_in_track_[k], numbers_[k]);
+  }
+  if (geometry_.undetermined > 0) set_compatibility_of_sinkages();
+}
+
+void RoverBalance::put_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const {
+  const TrackFactors track = track_factors(soils_[wheel], share_in_track);
+  numbers.stiffness = track.stiffness * fresh_stiffness_[wheel];
+  numbers.bulldozing = track.bulldozing * fresh_bulldozing_[wheel];
+}
+
+Soil RoverBalance::soil_under(const Trial& trial) const {
+  Soil soil = soils_[trial.wheel];
+  const TrackFactors track = track_factors(soil, trial.share_in_track);
+  soil.stiffen(track.stiffness);
+  soil.bulldozing *= track.bulldozing;
+  return soil;
 }
 
 bool RoverBalance::any_driven() const {
@@ -75,8 +125,8 @@ WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {
 RoverBalance::WheelContact RoverBalance::free_contact(const Trial& trial) const {
   const BalanceGeometry::Wheel& at = place(trial.wheel);
   const WheelModel& wheel = rover().wheels[trial.wheel];
-  const FreeRolling rolling = roll_freely(at.geometry, soils_[trial.wheel], trial.entry_angle_rad,
-                                          trial.motion, wheel.drag_nm, BalanceGeometry::kMinRateRatio);
+  const FreeRolling rolling = roll_freely(at.geometry, soil_under(trial), trial.entry_angle_rad, trial.motion,
+                                          wheel.drag_nm, BalanceGeometry::kMinRateRatio);
   const bool stands = rolling.rim_ratio <= BalanceGeometry::kMinRateRatio;
   return {rolling.forces, rolling.motion,
           stands ? 0.0 : at.direction * rolling.rim_ratio * geometry_.speed_scale_m_s / wheel.radius_m, 0.0};
@@ -85,7 +135,7 @@ RoverBalance::WheelContact RoverBalance::free_contact(const Trial& trial) const 
 RoverBalance::WheelContact RoverBalance::sliced_contact(const Trial& trial) const {
   const BalanceGeometry::Wheel& at = place(trial.wheel);
   const SlicedWheelForces sliced =
-      sliced_wheel_forces(at.geometry, soils_[trial.wheel],
+      sliced_wheel_forces(at.geometry, soil_under(trial),
                           {at.slice_height_m.data(), static_cast<std::size_t>(rover().wheel_slices)},
                           sinkage_m(at.geometry.radius_m, trial.entry_angle_rad), trial.motion);
   return {sliced.total, trial.motion, at.motion.rate_rad_s, sliced.overturning_nm};
@@ -117,6 +167,7 @@ void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelCon
     numbers[count].theta_f = trial.entry_angle_rad;
     numbers[count].forward = trial.motion.forward;
     numbers[count].leftward = trial.motion.leftward;
+    if (follows_tracks_) put_in_track(trial.wheel, trial.share_in_track, numbers[count]);
     of[count++] = t;
     contacts[t] = {{}, trial.motion, at.motion.rate_rad_s, 0.0};
   }
@@ -150,7 +201,7 @@ void RoverBalance::find_contacts(const Vector& unknowns) {
       const bool turns = rover().wheels[k].drive == WheelDrive::kDriven;
       contacts_[k] = {{}, motion, turns ? place(k).motion.rate_rad_s : 0.0, 0.0};
     } else {
-      trials[count++] = {k, unknowns[kMotions + k], motion};
+      trials[count++] = {k, unknowns[kMotions + k], motion, share_in_track_[k]};
     }
   }
   contacts_of({trials.data(), count}, {found.data(), count});
@@ -159,6 +210,7 @@ void RoverBalance::find_contacts(const Vector& unknowns) {
 
 const RoverBalance::Vector& RoverBalance::residual(const Vector& unknowns) {
   if (at_.size() == unknowns.size() && at_ == unknowns) return residual_at_;
+  follow_tracks(unknowns);
   find_contacts(unknowns);
   at_ = unknowns;
   const int top = equilibrium_count();
@@ -187,7 +239,7 @@ PerWheel<RoverBalance::WheelPoint> RoverBalance::points(const Vector& unknowns) 
   PerWheel<WheelPoint> points(soils_.size());
   for (int k = 0; k < wheel_count(); ++k) {
     const WheelMotion m = motion_of(k, unknowns);
-    points[k] = {loads_of(contacts_[k]), {unknowns[kMotions + k], m.forward, m.leftward}};
+    points[k] = {loads_of(contacts_[k]), {unknowns[kMotions + k], m.forward, m.leftward}, share_in_track_[k]};
   }
   return points;
 }
@@ -200,19 +252,23 @@ RoverBalance::WheelSlopes RoverBalance::slopes(const Vector& unknowns) const {
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
     const WheelMotion m = motion_of(k, unknowns);
-    const double theta = unknowns[kMotions + k];
-    trials[count++] = {k, theta + kStep, m};
-    trials[count++] = {k, theta, {m.forward + kStep, m.leftward}};
-    trials[count++] = {k, theta, {m.forward, m.leftward + kStep}};
+    const double theta = unknowns[kMotions + k], share = share_in_track_[k];
+    trials[count++] = {k, theta + kStep, m, share};
+    trials[count++] = {k, theta, {m.forward + kStep, m.leftward}, share};
+    trials[count++] = {k, theta, {m.forward, m.leftward + kStep}, share};
+    if (follows_tracks_) trials[count++] = {k, theta, m, share + kStep};
   }
   contacts_of({trials.data(), count}, {moved.data(), count});
-  WheelSlopes slopes{PerWheel<WheelSlope>(soils_.size(), WheelSlope::Zero()), PerWheel<double>(soils_.size()),
+  WheelSlopes slopes{PerWheel<WheelSlope>(soils_.size(), WheelSlope::Zero()),
+                     PerWheel<WheelLoads>(soils_.size(), WheelLoads::Zero()), PerWheel<double>(soils_.size()),
                      PerWheel<double>(soils_.size())};
-  for (std::size_t n = 0; n < count; n += 3) {
+  const std::size_t of_each = follows_tracks_ ? 4 : 3;
+  for (std::size_t n = 0; n < count; n += of_each) {
     const int k = trials[n].wheel;
     const WheelLoads here = loads_of(contacts_[k]);
     for (int by = 0; by < 3; ++by)
       slopes.of[k].col(by) = (loads_of(moved[n + static_cast<std::size_t>(by)]) - here) / kStep;
+    if (follows_tracks_) slopes.by_share[k] = (loads_of(moved[n + 3]) - here) / kStep;
     slopes.vertical_n[k] = contacts_[k].forces.vertical_n;
     slopes.entry_angle_rad[k] = unknowns[kMotions + k];
   }
@@ -226,6 +282,7 @@ RoverBalance::WheelSlopes RoverBalance::carried_over(const WheelSlopes& from, co
     const double ratio = contacts_[k].forces.vertical_n / from.vertical_n[k];
     if (!(ratio > 1.0 / kMaxRatio && ratio < kMaxRatio)) continue;
     slopes.of[k] *= ratio;
+    slopes.by_share[k] *= ratio;
     slopes.of[k].col(0) *= from.entry_angle_rad[k] / unknowns[kMotions + k];
   }
   return slopes;
@@ -241,18 +298,22 @@ void RoverBalance::correct(const PerWheel<WheelPoint>& before, const Vector& unk
     const Eigen::Vector3d step = now[k].arguments - before[k].arguments;
     const double square = step.squaredNorm();
     if (square < kMinSquare) continue;
-    const WheelLoads missed = now[k].loads - before[k].loads - slopes.of[k] * step;
+    const WheelLoads missed = now[k].loads - before[k].loads - slopes.of[k] * step -
+                              slopes.by_share[k] * (now[k].share_in_track - before[k].share_in_track);
     slopes.of[k] += missed * (step / square).transpose();
   }
 }
 
 void RoverBalance::move_along(const WheelSlopes& slopes, const Vector& unknowns) {
+  const PerWheel<double> share_before = share_in_track_;
+  follow_tracks(unknowns);
   for (int k = 0; k < wheel_count(); ++k) {
     WheelContact& contact = contacts_[k];
     const WheelMotion from = motion_of(k, at_), motion = motion_of(k, unknowns);
     const Eigen::Vector3d step(unknowns[kMotions + k] - at_[kMotions + k], motion.forward - from.forward,
                                motion.leftward - from.leftward);
-    const WheelLoads loads = loads_of(contact) + slopes.of[k] * step;
+    const WheelLoads loads =
+        loads_of(contact) + slopes.of[k] * step + slopes.by_share[k] * (share_in_track_[k] - share_before[k]);
     contact.forces = {
         .drawbar_pull_n = loads[0], .lateral_n = loads[1], .vertical_n = loads[2], .torque_nm = loads[3]};
     contact.overturning_nm = loads[4];
@@ -262,10 +323,23 @@ void RoverBalance::move_along(const WheelSlopes& slopes, const Vector& unknowns)
   residual_at_.setZero();
 }
 
+// What the motion changes of the wheels' shares in tracks, by one-sided differences.
+void RoverBalance::add_slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes,
+                                        Motions& by_motions) const {
+  constexpr double kStep = 1e-7;
+  for (int motion = 0; motion < kMotions; ++motion) {
+    Vector moved = unknowns;
+    moved[motion] += kStep;
+    const Loads share_slope = (tracks_in(moved) - tracks_).rowwise().sum() / kStep;
+    for (int k = 0; k < wheel_count(); ++k)
+      if (!in_air_[k])
+        by_motions.col(motion).noalias() += place(k).effect * slopes.by_share[k] * share_slope[k];
+  }
+}
+
 RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns, const WheelSlopes& slopes) const {
   const int top = equilibrium_count(), size = kMotions + wheel_count();
   Matrix jacobian = Matrix::Zero(size, size);
-  using Motions = Eigen::Matrix<double, BalanceGeometry::kPaddedEquilibrium, kMotions>;
   Motions by_motions = Motions::Zero();
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
@@ -274,6 +348,7 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns, const WheelS
     jacobian.col(kMotions + k).head(top) = by.col(0).head(top);
     by_motions += by.col(1) * at.forward_ratio + by.col(2) * at.leftward_ratio;
   }
+  if (follows_tracks_ && !holds_tracks_) add_slopes_by_tracks(unknowns, slopes, by_motions);
   jacobian.topLeftCorner(top, kMotions) = by_motions.topRows(top);
   if (geometry_.undetermined == 0) return jacobian;
   int row = top + geometry_.undetermined;

@@ -5,7 +5,9 @@
 #include <span>
 
 #include "sim/quasi_static/balance_geometry.h"
+#include "sim/rover/multipass.h"
 #include "sim/soil/soil.h"
+#include "sim/soil/soil_in_force.h"
 #include "sim/wheel/wheel_kernel.h"
 
 namespace slipway::sim {
@@ -30,6 +32,9 @@ namespace slipway::sim {
 // on a rocker-bogie or four on an averaging suspension, and one for four rigid wheels. A wheel in the air is
 // not part of A; its equation says that its entry angle is kMinEntryAngleRad. z_ref is of the order of the
 // wheels' sinkage, so that an error in depth weighs about as much as the load that it causes.
+//
+// Where soils remember tracks, a wheel's soil is that of a track for the share of its width that stands in
+// one (multipass.h), in the motion of the unknowns.
 //
 // The 3 + N unknowns are the speeds of B along d and e over `speed_scale`, the yaw rate times half the
 // wheelbase over the same, and the N entry angles.
@@ -69,10 +74,12 @@ class RoverBalance {
   struct WheelPoint {
     WheelLoads loads = WheelLoads::Zero();
     Eigen::Vector3d arguments = Eigen::Vector3d::Zero();  // entry angle, motion along and across
+    double share_in_track = 0.0;                          // of its width
   };
   // The slope of each wheel's loads, with the vertical load and the entry angle at which it was taken.
   struct WheelSlopes {
     PerWheel<WheelSlope> of;
+    PerWheel<WheelLoads> by_share;  // slope by the share of the width that stands in a track
     PerWheel<double> vertical_n, entry_angle_rad;
   };
   // Of every wheel at the unknowns of the last residual.
@@ -99,10 +106,17 @@ class RoverBalance {
   // The commanded direction of rolling, 1 or -1; forward where the commanded rate is 0.
   double direction(int wheel) const { return place(wheel).direction; }
   const WheelGeometry& wheel_geometry(int wheel) const { return place(wheel).geometry; }
+  // In force on fresh ground.
   const Soil& soil(int wheel) const { return soils_[wheel]; }
   // Whether any wheel, or every wheel, has a motor that turns it.
   bool any_driven() const;
   bool all_driven() const;
+  // Whether a wheel may stand in a track that differs from fresh soil.
+  bool follows_tracks() const { return follows_tracks_; }
+  // Holds the wheels' shares in tracks whatever the motion, until they are released: a share of the way from
+  // where they were held last to those of this motion.
+  void hold_tracks(const Vector& unknowns, double way);
+  void release_tracks();
   double speed_scale_m_s() const { return geometry_.speed_scale_m_s; }
   double half_wheelbase_m() const { return geometry_.half_wheelbase_m; }
   double weight_n() const { return geometry_.weight_n; }
@@ -137,19 +151,28 @@ class RoverBalance {
     return geometry_.wheels[static_cast<std::size_t>(wheel)];
   }
   void set_soils(const PerWheel<Soil>& soils);
+  void follow_tracks(const Vector& unknowns);
+  void set_tracks(const TrackShares& tracks);
+  void put_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const;
+  TrackShares tracks_in(const Vector& unknowns) const;
+  using Motions = Eigen::Matrix<double, BalanceGeometry::kPaddedEquilibrium, kMotions>;
+  void add_slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes, Motions& by_motions) const;
   void set_sinkage_scale();
   void set_compatibility();
+  void set_compatibility_of_sinkages();
   // A wheel at an entry angle and in a motion at which its contact is to be evaluated.
   struct Trial {
     int wheel = 0;
     double entry_angle_rad = 0.0;
     WheelMotion motion;
+    double share_in_track = 0.0;
   };
-  static constexpr int kMaxTrials = 3 * kMaxWheels;  // as many as a Jacobian needs
+  static constexpr int kMaxTrials = 4 * kMaxWheels;  // as many as a Jacobian needs
   // Evaluates all trials at once, which costs about half of one by one.
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);
   void find_contacts_in_kernel(const Vector& unknowns);
+  Soil soil_under(const Trial& trial) const;
   WheelContact free_contact(const Trial& trial) const;
   bool all_in_kernel() const;
   WheelContact sliced_contact(const Trial& trial) const;
@@ -163,16 +186,20 @@ class RoverBalance {
 
   std::optional<BalanceGeometry> own_geometry_;  // where it is not another's
   const BalanceGeometry& geometry_;
-  PerWheel<Soil> soils_;
-  PerWheel<WheelNumbers> numbers_;  // of wheel and soil; angle and motion are those of the last residual
+  PerWheel<Soil> soils_;  // in force on fresh ground
+  // Of wheel and soil; angle, motion and track are those of the last residual.
+  PerWheel<WheelNumbers> numbers_;
   PerWheel<WheelContact> contacts_;
   PerWheel<bool> in_air_;
-  PerWheel<double> rut_shares_;
+  bool follows_tracks_ = false, holds_tracks_ = false;  // see follows_tracks() and hold_tracks()
+  TrackShares tracks_, held_tracks_;                    // at the last residual; where they were held last
+  PerWheel<double> share_in_track_, fresh_stiffness_, fresh_bulldozing_, rut_shares_;
   int in_contact_;
   double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined
   Vector at_, residual_at_;       // unknowns and values of the last residual; empty once the contacts change
-  // The compatibility equations as rows over the wheels' own sinkages.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels> compatibility_;
+  // The compatibility equations as rows over the wheels' depths and over their own sinkages.
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels>;
+  Rows compatibility_of_depth_, compatibility_;
   Loads compatibility_of_gap_;
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sim/quasi_static/rover_balance.h"
-#include "sim/rover/multipass.h"
 #include "sim/wheel/entry_angle.h"
 
 namespace slipway::sim {
@@ -30,6 +29,7 @@ void RoverBalance::set_sinkage_scale() {
 void RoverBalance::set_compatibility() {
   const int spare = in_contact_ - (3 + geometry_.joints);
   compatibility_of_gap_.resize(spare);
+  compatibility_of_depth_.setZero(spare, wheel_count());
   compatibility_.setZero(spare, wheel_count());
   if (spare == 0) return;
   GapGradient a(in_contact_, 3 + geometry_.joints);
@@ -46,14 +46,21 @@ void RoverBalance::set_compatibility() {
   const Square q = a.householderQr().householderQ() * Square::Identity(in_contact_, in_contact_);
   const Square z = q.rightCols(spare).transpose() / sinkage_scale_m_;
   compatibility_of_gap_ = z * gap;
-  // Depths are linear in the wheels' own sinkages: column k has the depths that a unit sinkage of wheel k
-  // causes, its own and those of the wheels that follow in its rut.
+  for (int row = 0; row < in_contact_; ++row) compatibility_of_depth_.col(wheel[row]) = z.col(row);
+  set_compatibility_of_sinkages();
+}
+
+// Depths are linear in the wheels' own sinkages: column k has the depths that a unit sinkage of wheel k
+// causes, its own and those of the wheels that follow in its rut.
+void RoverBalance::set_compatibility_of_sinkages() {
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
     PerWheel<double> unit(wheel_count());
     unit[k] = 1.0;
-    const PerWheel<double> depth = sim::total_sinkages_m(geometry_.leaders, rut_shares_, unit);
-    for (int row = 0; row < in_contact_; ++row) compatibility_.col(k) += z.col(row) * depth[wheel[row]];
+    const PerWheel<double> depth = sim::total_sinkages_m(tracks_, rut_shares_, unit);
+    compatibility_.col(k).setZero();
+    for (int m = 0; m < wheel_count(); ++m)
+      compatibility_.col(k) += compatibility_of_depth_.col(m) * depth[m];
   }
 }
 
@@ -111,7 +118,7 @@ PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
   PerWheel<double> own(wheel_count());
   for (int k = 0; k < wheel_count(); ++k)
     own[k] = in_air_[k] ? 0.0 : sinkage_m(place(k).geometry.radius_m, unknowns[kMotions + k]);
-  return sim::total_sinkages_m(geometry_.leaders, rut_shares_, own);
+  return sim::total_sinkages_m(tracks_, rut_shares_, own);
 }
 
 // Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let

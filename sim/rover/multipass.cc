@@ -1,7 +1,8 @@
 #include "sim/rover/multipass.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace slipway::sim {
@@ -13,81 +14,124 @@ struct TrackPlace {
   double across_m = 0.0;
 };
 
+// The lines of a rover's places in steady motion: straight, or circles about the turn's centre, which is
+// 1 / curvature to the left of B.
 class Tracks {
  public:
-  explicit Tracks(const DriveCommand& command)
-      : forward_(travel_direction(command)),
+  Tracks(const Eigen::Vector2d& velocity, double yaw_rate)
+      : forward_(velocity.normalized()),
         leftward_(-forward_.y(), forward_.x()),
-        curvature_(command.curvature_1_m),
-        sign_(command.speed_m_s < 0.0 ? -1.0 : 1.0) {}
+        curvature_(yaw_rate / velocity.norm()) {}
 
+  // Written so that circles become straight lines without a step and without loss of digits.
   TrackPlace of(const WheelModel& wheel) const {
     const Eigen::Vector2d p = wheel.position_m.head<2>();
     const double x = forward_.dot(p), y = leftward_.dot(p);
-    if (std::abs(curvature_) < kStraightest_1_m) return {sign_ * x, y};
-    // About the turn's centre at (0, 1 / curvature): arc length of B's path and distance to B's circle.
-    const double turn_left = curvature_ > 0.0 ? 1.0 : -1.0;
-    const double radius = 1.0 / std::abs(curvature_);
-    const double inward = turn_left * y;  // towards the centre
-    return {sign_ * radius * std::atan2(x, radius - inward), std::hypot(x, radius - inward)};
+    const double to_centre = std::hypot(curvature_ * x, 1.0 - curvature_ * y);  // times the curvature
+    return {is_straight() ? x : std::atan2(curvature_ * x, 1.0 - curvature_ * y) / curvature_,
+            (2.0 * y - curvature_ * (x * x + y * y)) / (1.0 + to_centre)};
   }
 
   // How far ahead, along the line; on a circle never more than half way round.
   double ahead_m(const TrackPlace& other, const TrackPlace& self) const {
     const double d = other.along_m - self.along_m;
-    if (std::abs(curvature_) < kStraightest_1_m) return d;
-    return std::remainder(d, 2.0 * std::numbers::pi / std::abs(curvature_));
+    return is_straight() ? d : std::remainder(d, 2.0 * std::numbers::pi / std::abs(curvature_));
   }
 
  private:
-  static constexpr double kStraightest_1_m = 1e-9;
+  bool is_straight() const { return std::abs(curvature_) < 1e-9; }
 
   Eigen::Vector2d forward_, leftward_;
-  double curvature_, sign_;
+  double curvature_;  // 1/m
+};
+
+struct Interval {
+  double from_m = 0.0, to_m = 0.0;
+};
+
+// A part of a wheel's width as the pieces of it on which no track has been found yet.
+class FreshWidth {
+ public:
+  explicit FreshWidth(const Interval& whole) : count_(1) { pieces_[0] = whole; }
+
+  // Takes a track's width off, and returns how much that was.
+  double take_off(const Interval& track) {
+    double taken = 0.0;
+    const std::size_t before = count_;
+    for (std::size_t i = 0; i < before; ++i) {
+      const Interval piece = pieces_[i];
+      const double from = std::clamp(track.from_m, piece.from_m, piece.to_m);
+      const double to = std::clamp(track.to_m, piece.from_m, piece.to_m);
+      if (to <= from) continue;
+      taken += to - from;
+      pieces_[i].to_m = from;
+      pieces_[count_++] = {to, piece.to_m};
+    }
+    return taken;
+  }
+
+ private:
+  // A track cuts one piece at most into two.
+  std::array<Interval, 2 * kMaxWheels> pieces_;
+  std::size_t count_;
 };
 
 }  // namespace
 
-PerWheel<int> leaders(const RoverModel& rover, const DriveCommand& command) {
-  PerWheel<int> leader(rover.wheels.size(), -1);
-  if (command.turn_in_place) return leader;
-  const Tracks tracks(command);
+TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate) {
+  // Side by side is not ahead: a wheel leads where it is in front by more than rounding.
+  constexpr double kAhead_m = 1e-6;
+  const auto count = static_cast<Eigen::Index>(rover.wheels.size());
+  TrackShares shares = TrackShares::Zero(count, count);
+  if (velocity.isZero()) return shares;
+  const Tracks tracks(velocity, yaw_rate);
   PerWheel<TrackPlace> place(rover.wheels.size());
-  for (std::size_t k = 0; k < place.size(); ++k) place[k] = tracks.of(rover.wheels[k]);
+  PerWheel<Interval> width(rover.wheels.size());
   for (std::size_t k = 0; k < place.size(); ++k) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t m = 0; m < place.size(); ++m) {
-      const double ahead = tracks.ahead_m(place[m], place[k]);
-      const double reach = 0.5 * (rover.wheels[k].width_m + rover.wheels[m].width_m);
-      // Side by side is not ahead: a wheel leads where it is in front by more than rounding.
-      if (ahead < 1e-6 || ahead >= nearest || std::abs(place[m].across_m - place[k].across_m) >= reach)
-        continue;
-      nearest = ahead;
-      leader[k] = static_cast<int>(m);
-    }
+    place[k] = tracks.of(rover.wheels[k]);
+    const double half = 0.5 * rover.wheels[k].width_m;
+    width[k] = {place[k].across_m - half, place[k].across_m + half};
   }
-  return leader;
+  struct Leader {
+    double ahead_m = 0.0;
+    Eigen::Index wheel = 0;
+  };
+  for (Eigen::Index k = 0; k < count; ++k) {
+    std::array<Leader, kMaxWheels> leaders;
+    std::size_t found = 0;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      const double ahead = tracks.ahead_m(place[m], place[k]);
+      const bool overlaps = width[m].from_m < width[k].to_m && width[k].from_m < width[m].to_m;
+      if (ahead >= kAhead_m && overlaps) leaders[found++] = {ahead, m};
+    }
+    std::sort(leaders.begin(), leaders.begin() + found,
+              [](const Leader& a, const Leader& b) { return a.ahead_m < b.ahead_m; });
+    FreshWidth fresh(width[k]);
+    for (std::size_t i = 0; i < found; ++i)
+      shares(k, leaders[i].wheel) = fresh.take_off(width[leaders[i].wheel]) / rover.wheels[k].width_m;
+  }
+  return shares;
 }
 
 double rut_share(double stiffening, double n) {
   return 1.0 - std::pow(1.0 + stiffening, -1.0 / n);
 }
 
-PerWheel<double> total_sinkages_m(const PerWheel<int>& leaders, const PerWheel<double>& rut_shares,
+// From wheel to leader and on to the leader's leader. No more links than wheels: on the tightest circle
+// "ahead" could go round.
+PerWheel<double> total_sinkages_m(const TrackShares& shares, const PerWheel<double>& rut_shares,
                                   const PerWheel<double>& own_sinkage_m) {
-  PerWheel<double> total(own_sinkage_m.size());
-  for (std::size_t k = 0; k < total.size(); ++k) {
-    // From wheel to leader and on to the leader's leader. No more links than wheels: on the tightest circle
-    // "ahead" could go round.
-    double share = 1.0;
-    int at = static_cast<int>(k);
-    for (std::size_t link = 0; link < total.size() && at >= 0; ++link) {
-      total[k] += share * own_sinkage_m[at];
-      share *= rut_shares[at];
-      at = leaders[at];
-    }
+  using Depths = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
+  const Eigen::Index count = shares.rows();
+  const Eigen::Map<const Depths> own(own_sinkage_m.begin(), count), rut(rut_shares.begin(), count);
+  Depths added = own, total = own;
+  for (Eigen::Index link = 1; link < count && !added.isZero(0.0); ++link) {
+    added = rut.cwiseProduct(shares * added).eval();
+    total += added;
   }
-  return total;
+  PerWheel<double> depths(own_sinkage_m.size());
+  std::copy(total.begin(), total.end(), depths.begin());
+  return depths;
 }
 
 }  // namespace slipway::sim

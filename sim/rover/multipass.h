@@ -1,16 +1,22 @@
 #pragma once
 
-#include "sim/rover/drive_command.h"
+#include <Eigen/Core>
+
+#include "sim/rover/rover_model.h"
 #include "sim/wheel/per_wheel.h"
 
 namespace slipway::sim {
 
-// For each wheel the index of the nearest wheel ahead of it whose track it drives in, or -1. A wheel's track
-// is the line of its place when the rover moves as commanded: wheel k follows wheel m where their lines lie
-// closer than half the sum of their widths: across the direction of travel on the straight and in crab
-// motion, in the radii about the turn's centre on an arc. Turning in place no wheel follows another for long:
-// none.
-PerWheel<int> leaders(const RoverModel& rover, const DriveCommand& command);
+// Whose tracks the wheels drive in. Row k, column m: the share of wheel k's width on ground over which wheel
+// m was the last to drive before it. The sum of a row is the share of the wheel's width that is not on fresh
+// soil.
+using TrackShares = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels>;
+
+// `velocity` is that of B in frame B, in any unit of speed, and `yaw_rate` goes with it (rad for a metre in
+// that unit): tracks are the lines of the wheels' places in steady motion, straight ones or circles about the
+// centre of the turn. Where a rover slides aside its tracks lie apart. A rover without velocity (at rest, or
+// turning in place, where no wheel follows another for long) has none. Continuous in the motion.
+TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate);
 
 // The share of a rut's depth that is still there for the wheel that drives in it.
 //
@@ -26,9 +32,11 @@ PerWheel<int> leaders(const RoverModel& rover, const DriveCommand& command);
 // as it was made. In (0, 1) between, rising with s.
 double rut_share(double stiffening, double n);
 
-// Depth below the undisturbed surface of every wheel: z_k = z_r(leader) + own sinkage into the rut's bottom.
-// Linear in the own sinkages: z_k = own_k + share_k z_leader(k).
-PerWheel<double> total_sinkages_m(const PerWheel<int>& leaders, const PerWheel<double>& rut_shares,
+// Depth below the undisturbed surface of every wheel: its own sinkage and the depth of the rebounded ruts in
+// which it drives, by their shares. Linear in the own sinkages:
+//
+//   z_k = own_k + rut_share_k sum_m shares_km z_m
+PerWheel<double> total_sinkages_m(const TrackShares& shares, const PerWheel<double>& rut_shares,
                                   const PerWheel<double>& own_sinkage_m);
 
 }  // namespace slipway::sim

@@ -96,7 +96,7 @@ namespace {
 WheelRigResult run_at_slip(const WheelRigConditions& test) {
   const WheelMotion motion = motion_of(test);
   const double rim_speed = rim_speed_m_s(test);
-  const Soil met = soil_in_force(test.soil, test.gravity_m_s2, rim_speed, test.in_a_track);
+  const Soil met = soil_in_force(test.soil, test.gravity_m_s2, rim_speed, test.in_a_track ? 1.0 : 0.0);
   WheelRigResult result;
   result.slip = test.slip;
   if (test.sinkage_m) {

@@ -5,7 +5,7 @@
 
 namespace slipway::sim {
 
-Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, bool in_a_track) {
+Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, double share_in_track) {
   Soil met = soil;
   met.gravity_m_s2 = gravity_m_s2;
   if (soil.rate_shear_exponent != 0.0) {
@@ -14,13 +14,23 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
     met.shear_modulus_x_m *= factor;
     met.shear_modulus_y_m *= factor;
   }
-  // The soil before a wheel in a track was pushed aside by the wheel that made it, or some of it.
-  if (in_a_track) met.bulldozing *= soil.track_bulldozing;
-  double stiffer = in_a_track ? 1.0 + soil.multipass_stiffening : 1.0;
+  const TrackFactors track = track_factors(soil, share_in_track);
+  met.bulldozing *= track.bulldozing;
+  double stiffer = track.stiffness;
   if (soil.gravity_exponent != 0.0)
     stiffer *= std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent);
   met.stiffen(stiffer);
   return met;
+}
+
+bool remembers_tracks(const Soil& soil) {
+  return soil.multipass_stiffening > 0.0 || soil.bulldozing > 0.0;
+}
+
+// The soil before a wheel in a track was pushed aside by the wheel that made it, or some of it.
+TrackFactors track_factors(const Soil& soil, double share_in_track) {
+  return {.stiffness = 1.0 + soil.multipass_stiffening * share_in_track,
+          .bulldozing = 1.0 - (1.0 - soil.track_bulldozing) * share_in_track};
 }
 
 }  // namespace slipway::sim

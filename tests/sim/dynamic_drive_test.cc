@@ -218,6 +218,31 @@ TEST(DynamicDrive, LaterWheelsMeetTheTracksOfEarlierOnes) {
   EXPECT_NEAR(sample.slip_ratio, balance.slip_ratio, 0.004);
 }
 
+// Sliding down across a slope, wheels stand in tracks with a part of their width.
+TEST(DynamicDrive, AcrossASlopeLaterWheelsMeetAsMuchOfTheTracksAsInTheBalance) {
+  const RoverModel rover = six_wheeler();
+  Soil soil = sandy_loam();
+  soil.multipass_stiffening = 2.0;
+  DynamicOptions options;
+  options.contact_points = 1;
+  const FunctionGround slope = plane(rad_from_deg(12.0));
+  for (const double yaw_deg : {90.0, -90.0}) {
+    const Driven driven = drive(rover, slope, soil, rad_from_deg(yaw_deg), {straight(2.5)}, options);
+    const DriveSample& sample = driven.cruising();
+    const auto stance = settle(rover, slope, {0.0, 0.0, sample.attitude.yaw_rad});
+    ASSERT_TRUE(stance);
+    const StationState balance = QuasiStaticSolver(rover, kMars).solve(*stance, soil, {});
+    ASSERT_GT(std::abs(balance.side_slip_rad), rad_from_deg(5.0));
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_NEAR(sample.wheels[k].sinkage_m, balance.wheels[k].sinkage_m, 2e-4) << k;
+      EXPECT_NEAR(sample.wheels[k].current_a, balance.wheels[k].current_a, 5e-3) << k;
+    }
+    EXPECT_NEAR(sample.slip_ratio, balance.slip_ratio, 1e-3);
+    EXPECT_NEAR(std::atan2(sample.velocity_B.y(), sample.velocity_B.x()), balance.side_slip_rad,
+                rad_from_deg(0.1));
+  }
+}
+
 TEST(DynamicDrive, LeavesRutsAsDeepAsItsWheelsSank) {
   DynamicOptions options;
   options.keep_ruts = true;

@@ -14,8 +14,27 @@ namespace {
 
 constexpr double kMars = 3.71;
 
-std::vector<int> listed(const PerWheel<int>& leaders) {
-  return {leaders.begin(), leaders.end()};
+// Of a rover that moves at this speed, in the direction so far to the left of its x axis, on a path of this
+// curvature.
+TrackShares tracks_at(const RoverModel& rover, double speed_m_s, double direction_rad = 0.0,
+                      double curvature_1_m = 0.0) {
+  return tracks_followed(rover, speed_m_s * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad)),
+                         std::abs(speed_m_s) * curvature_1_m);
+}
+
+// A table of N x N shares from what is not 0 in it.
+struct Share {
+  int wheel = 0, leader = 0;
+  double share = 0.0;
+};
+TrackShares table(int wheels, const std::vector<Share>& shares) {
+  TrackShares table = TrackShares::Zero(wheels, wheels);
+  for (const Share& one : shares) table(one.wheel, one.leader) = one.share;
+  return table;
+}
+
+void expect_near(const TrackShares& found, const TrackShares& expected, double tolerance = 1e-12) {
+  EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), tolerance) << found << "\ninstead of\n" << expected;
 }
 
 StationState level(const RoverModel& rover, double stiffening, const DriveCommand& command = {}) {
@@ -25,38 +44,63 @@ StationState level(const RoverModel& rover, double stiffening, const DriveComman
   return solver.solve(stance_on_plane(rover, {}), soil, command);
 }
 
-TEST(Leaders, OnTheStraightEveryWheelFollowsTheNextOneOfItsSide) {
-  EXPECT_EQ(listed(leaders(six_wheeler(), {})), (std::vector<int>{-1, 0, 1, -1, 3, 4}));
+TEST(TracksFollowed, OnTheStraightEachPartOfAWheelFollowsTheLastWheelThatDroveThere) {
+  // The middle wheels stand half a width farther out than the others.
+  expect_near(tracks_at(six_wheeler(), 0.04),
+              table(6, {{1, 0, 0.5}, {2, 1, 0.5}, {2, 0, 0.5}, {4, 3, 0.5}, {5, 4, 0.5}, {5, 3, 0.5}}));
 }
 
-TEST(Leaders, BackwardsTheRearWheelsLead) {
-  EXPECT_EQ(listed(leaders(six_wheeler(), {.speed_m_s = -0.04})), (std::vector<int>{1, 2, -1, 4, 5, -1}));
+TEST(TracksFollowed, BackwardsTheRearWheelsLead) {
+  expect_near(tracks_at(six_wheeler(), -0.04),
+              table(6, {{1, 2, 0.5}, {0, 1, 0.5}, {0, 2, 0.5}, {4, 5, 0.5}, {3, 4, 0.5}, {3, 5, 0.5}}));
 }
 
-TEST(Leaders, TurningInPlaceNoWheelFollowsAnother) {
-  EXPECT_EQ(listed(leaders(six_wheeler(), {.turn_in_place = true, .turn_rate_rad_s = 0.03})),
-            std::vector<int>(6, -1));
+TEST(TracksFollowed, WithoutVelocityNoWheelFollowsAnother) {
+  expect_near(tracks_followed(six_wheeler(), Eigen::Vector2d::Zero(), 0.03), table(6, {}), 0.0);
 }
 
-TEST(Leaders, InCrabMotionTheTracksLieApart) {
-  const DriveCommand crab{.crab_rad = rad_from_deg(20.0)};
-  EXPECT_EQ(listed(leaders(six_wheeler(), crab)), std::vector<int>(6, -1));
+TEST(TracksFollowed, InCrabMotionTheTracksLieApart) {
+  expect_near(tracks_at(four_wheeler(SuspensionType::kAveraging), 0.04, rad_from_deg(30.0)), table(4, {}),
+              0.0);
 }
 
-TEST(Leaders, CrabbingSquareToTheSideTheRightWheelsFollowTheLeftOnes) {
-  const DriveCommand crab{.crab_rad = std::numbers::pi / 2};
-  EXPECT_EQ(listed(leaders(six_wheeler(), crab)), (std::vector<int>{-1, -1, -1, 0, 1, 2}));
+TEST(TracksFollowed, CrabbingSquareToTheSideTheRightWheelsFollowTheLeftOnes) {
+  expect_near(tracks_at(six_wheeler(), 0.04, std::numbers::pi / 2),
+              table(6, {{3, 0, 1.0}, {4, 1, 1.0}, {5, 2, 1.0}}));
 }
 
-TEST(Leaders, OnAnArcWheelsWithTheSameRadiusFollowAndOthersDoNot) {
+TEST(TracksFollowed, OnAnArcWheelsWithTheSameRadiusFollowAndOthersDoNot) {
   // About (0, R): front and rear at the same distance, the middle one on its own circle.
-  const RoverModel rover = six_wheeler();
-  const double radius = 0.9;
-  const auto led = leaders(rover, {.curvature_1_m = 1.0 / radius});
-  EXPECT_EQ(led[2], 0) << "left rear in the front wheel's track, past the middle one";
-  EXPECT_EQ(led[1], -1);
-  // On a wide arc all three share a track.
-  EXPECT_EQ(listed(leaders(rover, {.curvature_1_m = 0.02})), (std::vector<int>{-1, 0, 1, -1, 3, 4}));
+  const TrackShares tight = tracks_at(six_wheeler(), 0.04, 0.0, 1.0 / 0.9);
+  EXPECT_NEAR(tight(2, 0), 1.0, 1e-9) << "left rear in the front wheel's track, past the middle one";
+  EXPECT_EQ(tight.row(1).sum(), 0.0);
+}
+
+TEST(TracksFollowed, SlidingAsideAWheelStandsInATrackByWhatIsLeftOfItsWidth) {
+  const RoverModel rover = four_wheeler(SuspensionType::kAveraging);
+  const double wheelbase_m = rover.wheels[0].position_m.x() - rover.wheels[1].position_m.x();
+  for (const double drift_deg : {-5.0, -2.0, 1.0, 5.0}) {
+    const double drift = rad_from_deg(drift_deg);
+    const double share = 1.0 - wheelbase_m * std::abs(std::sin(drift)) / rover.wheels[1].width_m;
+    ASSERT_GT(share, 0.0);
+    expect_near(tracks_at(rover, 0.04, drift), table(4, {{1, 0, share}, {3, 2, share}}));
+  }
+}
+
+TEST(TracksFollowed, ACircleBecomesAStraightLineWithoutAStep) {
+  const TrackShares straight = tracks_at(six_wheeler(), 0.04, rad_from_deg(4.0));
+  for (const double curvature_1_m : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, -1e-7})
+    expect_near(tracks_at(six_wheeler(), 0.04, rad_from_deg(4.0), curvature_1_m), straight,
+                20.0 * std::abs(curvature_1_m) + 1e-13);
+}
+
+TEST(TracksFollowed, AreThoseOfTheMirroredMotionMirrored) {
+  const TrackShares left = tracks_at(six_wheeler(), 0.04, rad_from_deg(3.0), 0.3);
+  const TrackShares right = tracks_at(six_wheeler(), 0.04, rad_from_deg(-3.0), -0.3);
+  TrackShares mirrored(6, 6);
+  for (int k = 0; k < 6; ++k)
+    for (int m = 0; m < 6; ++m) mirrored(k, m) = right((k + 3) % 6, (m + 3) % 6);
+  expect_near(left, mirrored);
 }
 
 TEST(Multipass, SoilWithoutMemoryGivesEveryWheelItsOwnSinkage) {
@@ -103,14 +147,15 @@ TEST(Multipass, BackwardsTheRutIsTheFrontWheels) {
 }
 
 TEST(TotalSinkage, ARutOfThreeWheelsAddsUpFromTheFirstToTheLast) {
-  PerWheel<int> led(3, -1);
-  led[1] = 0;
-  led[2] = 1;
+  const TrackShares line = table(3, {{1, 0, 1.0}, {2, 1, 1.0}});
   PerWheel<double> share(3, 0.5), own(3, 0.01);
-  const auto total = total_sinkages_m(led, share, own);
+  const auto total = total_sinkages_m(line, share, own);
   EXPECT_DOUBLE_EQ(total[0], 0.01);
   EXPECT_DOUBLE_EQ(total[1], 0.015);
   EXPECT_DOUBLE_EQ(total[2], 0.0175);
+  // Half of the last wheel's width stands in the second one's rut, and a quarter in the first one's.
+  const TrackShares beside = table(3, {{1, 0, 1.0}, {2, 1, 0.5}, {2, 0, 0.25}});
+  EXPECT_DOUBLE_EQ(total_sinkages_m(beside, share, own)[2], 0.01 + 0.5 * (0.5 * 0.015 + 0.25 * 0.01));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(ReecePressure, DrySoilCarriesInProportionToGravityAndWeightlessSoilByDepthO
   Soil dry = reece_soil();
   dry.cohesion_pa = 0.0;
   const auto stiffness = [](const Soil& soil, double gravity, double width) {
-    return soil_in_force(soil, gravity, 0.04, false)
+    return soil_in_force(soil, gravity, 0.04, 0.0)
         .pressure_form({.width_m = width, .radius_m = 0.1})
         .stiffness;
   };
@@ -121,8 +121,8 @@ TEST(ReecePressure, ATrackIsStifferUnderItToo) {
   Soil soil = reece_soil();
   soil.multipass_stiffening = 0.9;
   const ContactSize contact{.width_m = 0.16, .radius_m = 0.125};
-  EXPECT_NEAR(soil_in_force(soil, 3.71, 0.04, true).pressure_form(contact).stiffness,
-              1.9 * soil_in_force(soil, 3.71, 0.04, false).pressure_form(contact).stiffness, 1e-6);
+  EXPECT_NEAR(soil_in_force(soil, 3.71, 0.04, 1.0).pressure_form(contact).stiffness,
+              1.9 * soil_in_force(soil, 3.71, 0.04, 0.0).pressure_form(contact).stiffness, 1e-6);
 }
 
 TEST(WongShear, IsWholeAtItsModulusAndFallsToTheResidual) {

@@ -124,19 +124,19 @@ TEST(Terzaghi, FactorsAreThoseOfHisTable) {
 
 TEST(SoilInForce, ATrackIsStifferAFastRimMeetsAnotherModulusAndGravityScalesWhereAsked) {
   Soil soil = sandy_loam();
-  EXPECT_EQ(soil_in_force(soil, 1.62, 0.1, true).pressure.k_phi, soil.pressure.k_phi);
-  EXPECT_EQ(soil_in_force(soil, 1.62, 0.1, true).gravity_m_s2, 1.62);
+  EXPECT_EQ(soil_in_force(soil, 1.62, 0.1, 1.0).pressure.k_phi, soil.pressure.k_phi);
+  EXPECT_EQ(soil_in_force(soil, 1.62, 0.1, 1.0).gravity_m_s2, 1.62);
   soil.multipass_stiffening = 0.9;
-  EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.1, true).pressure.k_phi, 1.9 * soil.pressure.k_phi);
-  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, false).pressure.k_phi, soil.pressure.k_phi);
+  EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.1, 1.0).pressure.k_phi, 1.9 * soil.pressure.k_phi);
+  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, 0.0).pressure.k_phi, soil.pressure.k_phi);
   soil.bulldozing = 0.7;
-  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, true).bulldozing, 0.0);
-  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, false).bulldozing, 0.7);
+  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, 1.0).bulldozing, 0.0);
+  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, 0.0).bulldozing, 0.7);
   soil.rate_shear_exponent = 0.5;
-  EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.16, false).shear_modulus_x_m, 2.0 * soil.shear_modulus_x_m);
+  EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.16, 0.0).shear_modulus_x_m, 2.0 * soil.shear_modulus_x_m);
   soil.gravity_exponent = 1.0;
   soil.measured_gravity_m_s2 = 9.81;
-  EXPECT_NEAR(soil_in_force(soil, 3.71, 0.04, false).pressure.k_c, soil.pressure.k_c * 3.71 / 9.81, 1e-9);
+  EXPECT_NEAR(soil_in_force(soil, 3.71, 0.04, 0.0).pressure.k_c, soil.pressure.k_c * 3.71 / 9.81, 1e-9);
 }
 
 }  // namespace
