@@ -27,9 +27,11 @@ class Tracks {
   TrackPlace of(const WheelModel& wheel) const {
     const Eigen::Vector2d p = wheel.position_m.head<2>();
     const double x = forward_.dot(p), y = leftward_.dot(p);
-    const double to_centre = std::hypot(curvature_ * x, 1.0 - curvature_ * y);  // times the curvature
-    return {is_straight() ? x : std::atan2(curvature_ * x, 1.0 - curvature_ * y) / curvature_,
-            (2.0 * y - curvature_ * (x * x + y * y)) / (1.0 + to_centre)};
+    // Of the turn's centre, times the curvature.
+    const double along = curvature_ * x, across = 1.0 - curvature_ * y;
+    const double away = std::sqrt(along * along + across * across);
+    return {is_straight() ? x : std::atan2(along, across) / curvature_,
+            (2.0 * y - curvature_ * (x * x + y * y)) / (1.0 + away)};
   }
 
   // How far ahead, along the line; on a circle never more than half way round.
@@ -64,15 +66,18 @@ class FreshWidth {
       const double to = std::clamp(track.to_m, piece.from_m, piece.to_m);
       if (to <= from) continue;
       taken += to - from;
+      if (from <= piece.from_m) {
+        pieces_[i].from_m = to;
+        continue;
+      }
       pieces_[i].to_m = from;
-      pieces_[count_++] = {to, piece.to_m};
+      if (to < piece.to_m) pieces_[count_++] = {to, piece.to_m};
     }
     return taken;
   }
 
  private:
-  // A track cuts one piece at most into two.
-  std::array<Interval, 2 * kMaxWheels> pieces_;
+  std::array<Interval, kMaxWheels> pieces_;  // a track cuts one of them at most into two
   std::size_t count_;
 };
 
@@ -100,9 +105,9 @@ TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velo
     std::array<Leader, kMaxWheels> leaders;
     std::size_t found = 0;
     for (Eigen::Index m = 0; m < count; ++m) {
+      if (m == k || width[m].from_m >= width[k].to_m || width[k].from_m >= width[m].to_m) continue;
       const double ahead = tracks.ahead_m(place[m], place[k]);
-      const bool overlaps = width[m].from_m < width[k].to_m && width[k].from_m < width[m].to_m;
-      if (ahead >= kAhead_m && overlaps) leaders[found++] = {ahead, m};
+      if (ahead >= kAhead_m) leaders[found++] = {ahead, m};
     }
     std::sort(leaders.begin(), leaders.begin() + found,
               [](const Leader& a, const Leader& b) { return a.ahead_m < b.ahead_m; });

@@ -91,6 +91,13 @@ status=0
 "$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && [ "$(grep -c 'separated by ";", must be separated by tabs: change the key separator of the mapping' "$folder/err")" = 3 ] && ! grep -q heading_ "$folder/err" && ! grep -q 'no column' "$folder/err"
 
+# Two columns of one name: which of them is meant can't be told.
+cp -r "$folder/team" "$folder/twins"
+for log in "$folder"/twins/D*-log.csv; do sed -i '1s/;heading_rad/;heading/' "$log"; done
+status=0
+"$slipway" import "$folder/twins/yard.toml" --data "$data" --out "$folder/twins-made" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && [ "$(grep -c 'heading' "$folder/err")" -ge 1 ] && [ ! -e "$folder/twins-made" ]
+
 # What the campaign's own reader refuses is placed in the log as well.
 cp -r "$folder/team" "$folder/hot"
 hot="$(ls "$folder"/hot/D*-log.csv | head -n 1)"

@@ -48,6 +48,10 @@ for words in ('<figure id="evidence">', '<figure id="ladder">', "A first pointer
 xml.dom.minidom.parseString(page.replace("<!DOCTYPE html>", ""))
 assert json.loads((folder / "report" / "watch.json").read_text()) == watch
 assert abs(sum(cause["share"] for cause in watch["causes"]) - 1) < 1e-3
+# The diagnosis begins at the last start that is at least a third as probable as the most probable one.
+begins = ids.index(watch["alarm"]["diagnosed_since"])
+assert ids.index(watch["alarm"]["since"]) <= begins <= ids.index(watch["alarm"]["drive"]), watch["alarm"]
+assert shares[begins] >= max(shares) / 3 - 1e-6 and all(share < max(shares) / 3 for share in shares[begins + 1:]), shares
 diagnosis = watch["diagnosis"]
 assert diagnosis["format"] == "diagnosis/1" and diagnosis["reference"]["drives"] > 30
 named = sum(c["probability"] for c in diagnosis["candidates"] if "gearbox_friction" in c["effects"])
@@ -55,7 +59,10 @@ assert named > 0.3, diagnosis["candidates"]
 since = json.loads((folder / "since" / "diagnosis.json").read_text())
 assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
 CHECK
-# Drives of another rover are no reference.
+# Neither are drives their own reference, nor those of another rover.
+status=0
+"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/s01" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q "is among the reference's drives too: must be other drives" "$folder/err"
 python3 - "$folder/set/references/s01/campaign.json" <<'OTHER'
 import json, pathlib, sys
 path = pathlib.Path(sys.argv[1])
