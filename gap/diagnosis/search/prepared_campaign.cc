@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "gap/diagnosis/model/difference_columns.h"
 #include "gap/diagnosis/model/reference_belief.h"
 #include "gap/diagnosis/model/smooth_difference.h"
 
@@ -55,8 +56,9 @@ Eigen::MatrixXd main_directions(const Eigen::MatrixXd& left, const WindowModel& 
 // The difference that a reference told of, in the windows of a campaign; `expected` is predicted without it.
 LearntDifference difference_of(const ReferenceBelief& belief, const Hypothesis& hypothesis,
                                const WindowModel& model, std::span<const double> expected,
-                               const ReferenceOptions& options) {
-  const Eigen::MatrixXd columns = smooth_columns(model, expected, belief.scale);
+                               const ReferenceOptions& options, std::size_t threads) {
+  const std::vector<double> neutral = hypothesis.neutral();
+  const Eigen::MatrixXd columns = difference_columns(model, neutral, expected, belief.scale, threads);
   const Eigen::MatrixXd beyond = columns_beyond(model, expected, belief.scale, belief.range);
   // Beyond what was learnt every direction is open: one that is left out would be taken for known.
   const Eigen::MatrixXd learnt_open =
@@ -65,7 +67,7 @@ LearntDifference difference_of(const ReferenceBelief& belief, const Hypothesis& 
       main_directions(options.beyond * beyond, model, expected, belief.noise, options, beyond.cols());
   Eigen::MatrixXd open(columns.rows(), learnt_open.cols() + beyond_open.cols());
   open << learnt_open, beyond_open;
-  LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, hypothesis.neutral(), open};
+  LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, neutral, open};
   for (Eigen::Index p = 0; p < learnt.slope.cols(); ++p)
     learnt.slope.col(p) /= hypothesis.parameters()[static_cast<std::size_t>(p)].std;
   return learnt;
@@ -193,7 +195,7 @@ Result<PreparedCampaign> prepare_as_believed(const DriveCampaign& campaign, cons
   made.model->start_from(hypothesis.state(neutral), threads);
   if (campaign.reference)
     made.model->learn(difference_of(*campaign.reference, hypothesis, model,
-                                    hypothesis.predict(model, neutral, threads), options.reference));
+                                    hypothesis.predict(model, neutral, threads), options.reference, threads));
   std::vector<double> expected = hypothesis.predict(model, neutral, threads);
   made.nominal_residuals = measured(model);
   for (std::size_t i = 0; i < expected.size(); ++i)

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gap/diagnosis/model/difference_columns.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -109,7 +111,7 @@ class Learner {
     // With what the difference explains put back, as the parameters' part is.
     Eigen::VectorXd residuals = fit.white_linear;
     if (offset_.size() > 0) residuals += fit.row_weights.asDiagonal() * prepared.noise->whiten(offset_);
-    const std::vector<std::size_t> groups = smooth_groups(*campaign_.rover);
+    const std::vector<std::size_t> groups = difference_groups(*campaign_.rover);
     const std::vector<double> sizes =
         believed_sizes(residuals, fit.white_jacobian, white, groups, options_.reference.sizes);
     Eigen::VectorXd size(white.cols());
@@ -145,7 +147,7 @@ class Learner {
         learnt_.prepared.null->hypothesis.predict(model, x, options_.search.threads);
     if (learnt_.scale.unit.empty()) learnt_.scale = smooth_scale(model, expected);
     learnt_.range = smooth_range(model, expected);
-    return smooth_columns(model, expected, learnt_.scale);
+    return difference_columns(model, x, expected, learnt_.scale, options_.search.threads);
   }
 
   LearntDifference nothing(const std::vector<double>& x) const {

@@ -1,0 +1,52 @@
+#include "gap/diagnosis/model/difference_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/effects/multipass.h"
+
+namespace slipway::gap {
+namespace {
+
+// How many times stiffer than fresh soil tracks are taken to be, less 1.
+constexpr std::array<double, 2> kStiffenings{0.4, 1.6};
+
+// What tracks so much stiffer change; 0 where either has no answer.
+Eigen::VectorXd track_column(const WindowModel& model, std::span<const double> x,
+                             std::span<const double> expected, double stiffening, std::size_t threads) {
+  EffectVariant in_tracks = sim::kMultipass.variants(*model.campaign().rover).front();
+  in_tracks.effect = sim::kMultipass.name;
+  const Hypothesis hypothesis(model.campaign(), {in_tracks});
+  std::vector<double> with(x.begin(), x.end());
+  with.push_back(stiffening);
+  const std::vector<double> changed = hypothesis.predict(model, with, threads);
+  Eigen::VectorXd column(static_cast<Eigen::Index>(expected.size()));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double change = changed[i] - expected[i];
+    column[static_cast<Eigen::Index>(i)] = std::isfinite(change) ? change : 0.0;
+  }
+  return column;
+}
+
+}  // namespace
+
+Eigen::MatrixXd difference_columns(const WindowModel& model, std::span<const double> x,
+                                   std::span<const double> expected, const SmoothScale& scale,
+                                   std::size_t threads) {
+  const Eigen::MatrixXd smooth = smooth_columns(model, expected, scale);
+  Eigen::MatrixXd columns(smooth.rows(), smooth.cols() + static_cast<Eigen::Index>(kStiffenings.size()));
+  columns.leftCols(smooth.cols()) = smooth;
+  for (std::size_t s = 0; s < kStiffenings.size(); ++s)
+    columns.col(smooth.cols() + static_cast<Eigen::Index>(s)) =
+        track_column(model, x, expected, kStiffenings[s], threads);
+  return columns;
+}
+
+std::vector<std::size_t> difference_groups(const sim::RoverModel& rover) {
+  std::vector<std::size_t> groups = smooth_groups(rover);
+  groups.insert(groups.end(), kStiffenings.size(), kSmoothGroups * channel_count());
+  return groups;
+}
+
+}  // namespace slipway::gap
