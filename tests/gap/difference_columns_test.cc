@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/progress.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 #include "tests/gap/practice_drives.h"
@@ -23,21 +25,23 @@ TEST(DifferenceColumns, HaveWhatTracksChangeBesideSmoothFunctions) {
   const std::vector<std::size_t> groups = difference_groups(*campaign.rover);
 
   const Eigen::MatrixXd smooth = smooth_columns(model, expected, scale);
-  ASSERT_EQ(columns.cols(), smooth.cols() + 2);
+  ASSERT_EQ(columns.cols(), smooth.cols() + 2 * static_cast<Eigen::Index>(channel_count()));
   ASSERT_EQ(groups.size(), static_cast<std::size_t>(columns.cols()));
   EXPECT_EQ(columns.leftCols(smooth.cols()), smooth);
-  const std::size_t of_tracks = groups.back();
-  EXPECT_EQ(groups[groups.size() - 2], of_tracks) << "both are of one size";
-  EXPECT_EQ(std::count(groups.begin(), groups.end(), of_tracks), 2);
+  EXPECT_EQ(groups[groups.size() - 2], groups.back()) << "a channel's are of one size";
+  EXPECT_EQ(std::count(groups.begin(), groups.end(), groups.back()), 2);
 
-  const Eigen::VectorXd usual = columns.col(smooth.cols()), large = columns.col(smooth.cols() + 1);
+  const auto slip = smooth.cols() + 2 * static_cast<Eigen::Index>(Channel::kSlip);
+  const Eigen::VectorXd usual = columns.col(slip), large = columns.col(slip + 1);
   EXPECT_TRUE(columns.allFinite());
   EXPECT_GT(usual.norm(), 0.0);
   EXPECT_GT(large.norm(), 1.5 * usual.norm());
-  for (std::size_t w = 0; w < model.windows().size(); ++w)
-    if (model.windows()[w].command.turn_in_place)
-      for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
-        EXPECT_EQ(large[static_cast<Eigen::Index>(model.offset(w) + i)], 0.0) << "no wheel follows another";
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    if (!model.windows()[w].command.turn_in_place) continue;
+    const auto count = static_cast<Eigen::Index>(model.windows()[w].observations.size());
+    EXPECT_TRUE(large.segment(static_cast<Eigen::Index>(model.offset(w)), count).isZero(0.0))
+        << "no wheel follows another";
+  }
 }
 
 }  // namespace

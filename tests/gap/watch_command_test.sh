@@ -20,6 +20,14 @@ status=0
   --report "$folder/healthy.html" >"$folder/words"
 grep -q 'nothing has changed' "$folder/words"
 grep -q '<figure id="evidence">' "$folder/healthy.html"
+# Tracks of another physics are no change since: `multipass` had a log evidence of 316 here before a reference taught them.
+"$sealed_campaigns" "$folder/tracks" --set each --only com_offset --fidelity L3 --size 1 --seed 1 --since 999 --references yes
+"$slipway" diagnose "$folder/tracks/s01" --reference "$folder/tracks/references/s01" --data "$data" --json >"$folder/tracks.json"
+python3 - "$folder/tracks.json" <<'TRACKS'
+import json, sys
+said = json.load(open(sys.argv[1]))
+assert not said["effects"] and all(m["probability"] < 0.3 for m in said["marginals"] if m["name"] == "multipass"), said["reason"]
+TRACKS
 # Learnt on slopes up to 5 deg alone, by a simulator with another physics: steep ones are no change.
 "$sealed_campaigns" "$folder/gentle" --set each --only wheel_radius --fidelity L3 --size 1 --seed 2302 --since 9 --references yes
 "$slipway" watch "$folder/gentle/references/s01" --learn 20 --data "$data" --no-diagnosis >"$folder/words"

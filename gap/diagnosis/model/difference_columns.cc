@@ -35,17 +35,26 @@ Eigen::MatrixXd difference_columns(const WindowModel& model, std::span<const dou
                                    std::span<const double> expected, const SmoothScale& scale,
                                    std::size_t threads) {
   const Eigen::MatrixXd smooth = smooth_columns(model, expected, scale);
-  Eigen::MatrixXd columns(smooth.rows(), smooth.cols() + static_cast<Eigen::Index>(kStiffenings.size()));
+  const auto of_tracks = static_cast<Eigen::Index>(kStiffenings.size() * channel_count());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(smooth.rows(), smooth.cols() + of_tracks);
   columns.leftCols(smooth.cols()) = smooth;
-  for (std::size_t s = 0; s < kStiffenings.size(); ++s)
-    columns.col(smooth.cols() + static_cast<Eigen::Index>(s)) =
-        track_column(model, x, expected, kStiffenings[s], threads);
+  for (std::size_t s = 0; s < kStiffenings.size(); ++s) {
+    const Eigen::VectorXd changed = track_column(model, x, expected, kStiffenings[s], threads);
+    Eigen::Index row = 0;
+    for (const DriveWindow& window : model.windows())
+      for (const Observation& o : window.observations) {
+        const std::size_t at = kStiffenings.size() * static_cast<std::size_t>(o.channel) + s;
+        columns(row, smooth.cols() + static_cast<Eigen::Index>(at)) = changed[row];
+        ++row;
+      }
+  }
   return columns;
 }
 
 std::vector<std::size_t> difference_groups(const sim::RoverModel& rover) {
   std::vector<std::size_t> groups = smooth_groups(rover);
-  groups.insert(groups.end(), kStiffenings.size(), kSmoothGroups * channel_count());
+  for (std::size_t c = 0; c < channel_count(); ++c)
+    groups.insert(groups.end(), kStiffenings.size(), kSmoothGroups * channel_count() + c);
   return groups;
 }
 

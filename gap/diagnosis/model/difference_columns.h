@@ -15,7 +15,7 @@ namespace slipway::gap {
 // what a window met (smooth_difference.h), and what the tracks of other wheels change, which no smooth
 // function has: a wheel stands in them or beside them, as the rover slides and turns. Where another
 // simulator's tracks are not fresh soil either, that is no change since the reference. It is what `multipass`
-// does with a usual and with a large stiffening.
+// does with a usual and with a large stiffening, in each channel by itself.
 //
 // Observations x coefficients, at nuisances x; `expected`: predicted there without any difference. The number
 // and the meaning of the columns depend on the rover's wheels alone.
@@ -23,7 +23,7 @@ Eigen::MatrixXd difference_columns(const WindowModel& model, std::span<const dou
                                    std::span<const double> expected, const SmoothScale& scale,
                                    std::size_t threads);
 
-// The group of each: smooth_groups(), and one of what tracks change.
+// The group of each: smooth_groups(), and for each channel one of what tracks change.
 std::vector<std::size_t> difference_groups(const sim::RoverModel& rover);
 
 }  // namespace slipway::gap
