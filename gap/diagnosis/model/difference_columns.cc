@@ -1,6 +1,5 @@
 #include "gap/diagnosis/model/difference_columns.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
