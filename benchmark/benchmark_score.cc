@@ -19,10 +19,6 @@ const std::string kUnknownName = "unknown";
 constexpr double kSmallAngle_deg = 25.0, kConfident = 0.9, kHeld = 0.95;
 constexpr std::size_t kMaxHeld = 3;
 
-bool names_effects(Verdict v) {
-  return v == Verdict::kEffects || v == Verdict::kEffectSet;
-}
-
 bool names_nothing(Verdict v) {
   return v == Verdict::kNoGap || v == Verdict::kNotDetected || v == Verdict::kParameters;
 }

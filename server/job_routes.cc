@@ -1,6 +1,7 @@
 #include "server/job_routes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -71,7 +72,7 @@ class JobRoutes {
     const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
     const std::string kind = query.text("kind"), state = query.text("state");
     if (!state.empty() && !api::job_state(state))
-      query.fault("state", "must be accepted, running, successful, failed or dismissed");
+      query.fault("state", fmt::format("must be one of {}", fmt::join(api::job_state_names(), ", ")));
     if (const auto error = query.error()) return problem_response(*error, &request);
     const bool all = kind.empty() && state.empty();
     auto jobs = runner_.store().list(all ? limit : options_.most_listed);

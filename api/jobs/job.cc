@@ -10,19 +10,24 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::array<std::string_view, 5> kNames{"accepted", "running", "successful", "failed", "dismissed"};
+constexpr std::array<std::string_view, 5> kStateNames{"accepted", "running", "successful", "failed",
+                                                      "dismissed"};
 constexpr std::size_t kIdDigits = 32;
 
 }  // namespace
 
 std::string_view describe(JobState state) {
-  return kNames.at(static_cast<std::size_t>(state));
+  return kStateNames.at(static_cast<std::size_t>(state));
+}
+
+std::span<const std::string_view> job_state_names() {
+  return kStateNames;
 }
 
 std::optional<JobState> job_state(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<JobState>(found - kNames.begin());
+  const auto found = std::find(kStateNames.begin(), kStateNames.end(), name);
+  if (found == kStateNames.end()) return std::nullopt;
+  return static_cast<JobState>(found - kStateNames.begin());
 }
 
 bool has_ended(JobState state) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@ enum class JobState { kAccepted, kRunning, kSuccessful, kFailed, kDismissed };
 
 // "accepted", "running", "successful", "failed", "dismissed".
 std::string_view describe(JobState state);
+std::span<const std::string_view> job_state_names();
 std::optional<JobState> job_state(std::string_view name);
 bool has_ended(JobState state);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/angle.h"
 #include "core/part_of_progress.h"
@@ -14,9 +13,11 @@
 #include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/measurement_proposals.h"
 #include "gap/diagnosis/describe/next_drives.h"
+#include "gap/diagnosis/describe/offered_model.h"
 #include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
 #include "gap/diagnosis/doubts.h"
+#include "gap/diagnosis/held_out/correction_choice.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
@@ -213,10 +214,10 @@ class Diagnoser {
   const FittedExplanation& fit_beside_rest() const {
     return d_.outside ? search_.fits[search_.candidates[naming_.chosen].fit] : reported_fit();
   }
-  bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
+  bool explains() const { return names_effects(d_.verdict); }
 
   void describe_parameters() {
-    const FittedExplanation& fit = explains() ? best_fit() : search_.fits[0];
+    const FittedExplanation& fit = reported_fit();
     for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
       const Interval value = parameter_interval(fit, p);
@@ -266,34 +267,13 @@ class Diagnoser {
     }
   }
 
-  // The correction that is reported, and which others would have been had other drives been made.
   CorrectionChoice choose_corrections(const DriveResampling& drives) {
-    const auto refit = [&](std::size_t candidate) {
-      return refitted(prepared_, search_.fits[search_.candidates[candidate].fit], options_);
-    };
-    const auto corrects = [&](std::size_t candidate) {
-      const Candidate& c = search_.candidates[candidate];
-      return !c.unknown() && !c.effects.empty();
-    };
     const SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
     for (std::size_t c = 0; c < selection.share.size(); ++c)
       d_.candidates[c].chosen_share = selection.share[c];
     if (!explains()) return {{uncorrected()}, {}};
-    if (d_.partial) return {{refit(best_)}, {}};
-    CorrectionChoice choice{{refit(best_)}, {}};
-    // Where resamples choose what was chosen of all drives, they give it the same names.
-    std::map<std::size_t, std::size_t> correction_of{{best_, 0}, {most_believed_, 0}};
-    for (std::size_t c = 0; c < selection.share.size(); ++c) {
-      if (correction_of.contains(c) || selection.share[c] == 0.0) continue;
-      if (corrects(c) && selection.share[c] < options_.held_out.min_chosen_share) {
-        correction_of[c] = 0;
-        continue;
-      }
-      correction_of[c] = choice.corrections.size();
-      choice.corrections.push_back(corrects(c) ? refit(c) : uncorrected());
-    }
-    for (const std::size_t chosen : selection.chosen) choice.of_resample.push_back(correction_of[chosen]);
-    return choice;
+    if (d_.partial) return {{refitted(prepared_, best_fit(), options_)}, {}};
+    return gap::choose_corrections(prepared_, search_, selection, best_, most_believed_, options_);
   }
 
   Result<void> close_gap(const DriveResampling& drives) {
@@ -318,48 +298,10 @@ class Diagnoser {
     if (explains()) d_.closed_fraction = closure->closed_fraction;
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    offer_model(closure->log_density_gain);
+    offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
     add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds, options_.fit),
                          fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};
-  }
-
-  // The model to plan with, where it predicts better than the nominal one.
-  void offer_model(double log_density_gain) {
-    const bool offered =
-        explains() ? log_density_gain > 0.0 : d_.verdict == Verdict::kParameters || unknown_but_nearer();
-    if (offered) {
-      const FittedExplanation& reported = explains() ? best_fit() : search_.fits[0];
-      d_.model = reported.hypothesis.state(reported.x);
-      d_.model_effects = reported.hypothesis.settings(reported.x);
-      d_.left_open = posterior_of(reported);
-    } else if (explains()) {
-      d_.notes.push_back(
-          "the correction did not improve drives held out of the fit: no corrected model is offered");
-    }
-  }
-
-  // A model beside which something unknown is at work is still the better one to plan with, where no channel
-  // of drives held out is predicted worse by it than by the nominal one and one is predicted much better.
-  bool unknown_but_nearer() {
-    if (d_.verdict != Verdict::kUnknown) return false;
-    bool better = false;
-    for (const ChannelClosure& c : d_.gap) {
-      if (c.retuned.value > options_.held_out.no_worse * c.nominal.value) {
-        d_.notes.push_back(
-            fmt::format("no corrected model is offered: on drives held out of the fit the re-tuned one would "
-                        "predict {} {:.0f} % worse than the nominal one",
-                        name_of(c.channel), 100.0 * (c.retuned.value / c.nominal.value - 1.0)));
-        return false;
-      }
-      better = better || c.retuned.value < options_.held_out.much_better * c.nominal.value;
-    }
-    if (better)
-      d_.notes.emplace_back(
-          "the corrected model is the re-tuned one, without the effects named, and leaves something "
-          "unexplained; it is offered because it predicted drives held out of the fit better than the "
-          "nominal one");
-    return better;
   }
 
   void propose_drives() {

@@ -261,8 +261,7 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 
 void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
                                    const VerdictOptions& options, Diagnosis& d) {
-  const bool names_effects = d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet;
-  if (!names_effects || d.partial || log_density_gain > 0.0) return;
+  if (!names_effects(d.verdict) || d.partial || log_density_gain > 0.0) return;
   const bool is_strong = log_evidence >= options.strong_evidence;
   if (of_each_named(d, options, [&](const EffectMarginal& m) {
         return stands_beside_unknown(m, options) ||

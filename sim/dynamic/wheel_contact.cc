@@ -171,9 +171,7 @@ void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, 
                                ContactState& contact) const {
   const Place& place = places_[trial.wheel];
   Soil soil = place.soil;
-  const double stiffer = numbers.stiffness / place.numbers.stiffness;
-  soil.stiffen(stiffer);
-  soil.bulldozing = numbers.bulldozing;
+  put_in_track(soil, contact.driven_on);
   const SlicedWheelForces sliced = sliced_wheel_forces(
       place.geometry, soil, {contact.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
       contact.depth_m, {numbers.forward, numbers.leftward});

@@ -100,9 +100,7 @@ void RoverBalance::put_in_track(int wheel, double share_in_track, WheelNumbers& 
 
 Soil RoverBalance::soil_under(const Trial& trial) const {
   Soil soil = soils_[trial.wheel];
-  const TrackFactors track = track_factors(soil, trial.share_in_track);
-  soil.stiffen(track.stiffness);
-  soil.bulldozing *= track.bulldozing;
+  sim::put_in_track(soil, trial.share_in_track);
   return soil;
 }
 

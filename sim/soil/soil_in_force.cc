@@ -14,12 +14,9 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
     met.shear_modulus_x_m *= factor;
     met.shear_modulus_y_m *= factor;
   }
-  const TrackFactors track = track_factors(soil, share_in_track);
-  met.bulldozing *= track.bulldozing;
-  double stiffer = track.stiffness;
   if (soil.gravity_exponent != 0.0)
-    stiffer *= std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent);
-  met.stiffen(stiffer);
+    met.stiffen(std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent));
+  put_in_track(met, share_in_track);
   return met;
 }
 
@@ -31,6 +28,12 @@ bool remembers_tracks(const Soil& soil) {
 TrackFactors track_factors(const Soil& soil, double share_in_track) {
   return {.stiffness = 1.0 + soil.multipass_stiffening * share_in_track,
           .bulldozing = 1.0 - (1.0 - soil.track_bulldozing) * share_in_track};
+}
+
+void put_in_track(Soil& soil, double share_in_track) {
+  const TrackFactors track = track_factors(soil, share_in_track);
+  soil.stiffen(track.stiffness);
+  soil.bulldozing *= track.bulldozing;
 }
 
 }  // namespace slipway::sim

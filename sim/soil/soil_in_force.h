@@ -20,4 +20,7 @@ struct TrackFactors {
 };
 TrackFactors track_factors(const Soil& soil, double share_in_track);
 
+// Makes a soil the one that a wheel meets which stands in a track with this share of its width.
+void put_in_track(Soil& soil, double share_in_track);
+
 }  // namespace slipway::sim

@@ -150,11 +150,9 @@ class Judge {
     for (const MeasuredDriveSeries& drive : read_.drives)
       for (std::size_t i = 0; i < drive.samples.size(); i += kEvery) {
         const DriveSample& sample = drive.samples[i];
-        const auto& ground = read_.terrains[drive.terrain].ground;
         const double cosine = std::cos(sample.attitude.roll_rad) * std::cos(sample.attitude.pitch_rad);
-        if (!ground || !std::isfinite(cosine) || !sample.p_MB.allFinite()) continue;
-        const auto point = ground->at(sample.p_MB.x(), sample.p_MB.y());
-        if (!point) continue;
+        const auto point = ground_under(drive, sample);
+        if (!point || !std::isfinite(cosine)) continue;
         recorded.push_back(deg_from_rad(std::acos(std::clamp(cosine, -1.0, 1.0))));
         of_ground.push_back(deg_from_rad(std::acos(std::clamp(point->normal.z(), -1.0, 1.0))));
       }
@@ -180,10 +178,8 @@ class Judge {
     std::vector<double> shares;  // of the ground's angle
     for (const MeasuredDriveSeries& drive : read_.drives)
       for (const DriveSample& sample : drive.samples) {
-        const auto& ground = read_.terrains[drive.terrain].ground;
-        if (!ground || !std::isfinite(sample.attitude.yaw_rad) || !sample.p_MB.allFinite()) continue;
-        const auto point = ground->at(sample.p_MB.x(), sample.p_MB.y());
-        if (!point) continue;
+        const auto point = ground_under(drive, sample);
+        if (!point || !std::isfinite(sample.attitude.yaw_rad)) continue;
         const Attitude stands = on_ground(point->normal, sample.attitude.yaw_rad);
         if (std::abs(stands.*angle) < kTilted_rad || !std::isfinite(sample.attitude.*angle)) continue;
         shares.push_back(sample.attitude.*angle / (stands.*angle));
@@ -197,6 +193,13 @@ class Judge {
                     "sense, change the key sign of {}",
                     key, sources_of(campaign_, key), half, key,
                     key == "pitch_deg" ? "nose down" : "left side up", key_words(campaign_, key)));
+  }
+
+  std::optional<sim::GroundPoint> ground_under(const MeasuredDriveSeries& drive,
+                                               const DriveSample& sample) const {
+    const auto& ground = read_.terrains[drive.terrain].ground;
+    if (!ground || !sample.p_MB.allFinite()) return std::nullopt;
+    return ground->at(sample.p_MB.x(), sample.p_MB.y());
   }
 
   static Attitude on_ground(const Eigen::Vector3d& normal, double yaw_rad) {

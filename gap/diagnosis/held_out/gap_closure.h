@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
+#include "gap/diagnosis/held_out/correction_choice.h"
 #include "gap/diagnosis/held_out/held_out.h"
 #include "gap/diagnosis/model/drive_resampling.h"
 #include "gap/diagnosis/result/result.h"
@@ -24,12 +25,6 @@ struct GapClosure {
   PlannersView planners_view;
   std::vector<HeldOutPoint> points;
   std::vector<WindowGap> windows;
-};
-
-// The correction that is reported, [0], and those that would have been chosen had other drives been made.
-struct CorrectionChoice {
-  std::vector<Correction> corrections;
-  std::vector<std::size_t> of_resample;  // which of them; empty: always the first
 };
 
 // Intervals are over resamples of drives, the choice repeated in each as far as `choice` says.

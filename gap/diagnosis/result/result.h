@@ -24,6 +24,9 @@ namespace slipway::gap {
 
 enum class Verdict { kNoGap, kNotDetected, kParameters, kEffects, kEffectSet, kUnknown, kInsufficient };
 std::string_view name_of(Verdict verdict);  // "no_gap", ...
+inline bool names_effects(Verdict verdict) {
+  return verdict == Verdict::kEffects || verdict == Verdict::kEffectSet;
+}
 
 struct FoundParameter {
   std::string name;  // of the effect's field, in its unit
