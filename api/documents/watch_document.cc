@@ -28,7 +28,7 @@ std::string watch_document(const gap::DriveWatch& watch) {
   w.key("drives").begin_array();
   for (std::size_t d = 0; d < watch.drives.size(); ++d) {
     const gap::WatchedDrive& drive = watch.drives[d];
-    w.begin_object().text("id", drive.id);
+    w.begin_object().text("id", drive.id).whole("windows", static_cast<std::int64_t>(drive.windows));
     if (std::isfinite(drive.log10_evidence)) w.significant("log10_evidence", drive.log10_evidence);
     w.boolean("alarm", drive.alarm);
     if (d < watch.onset_shares.size()) w.significant("onset_share", watch.onset_shares[d]);

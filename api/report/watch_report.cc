@@ -109,9 +109,10 @@ Chart onset_chart(const DriveWatch& watch) {
 
 void write_drives(ReportPage& page, const DriveWatch& watch) {
   page.folded_table("Every drive in numbers",
-                    {"drive", "log10 of the evidence", "share of the onset", "alarm"});
+                    {"drive", "windows", "log10 of the evidence", "share of the onset", "alarm"});
   for (std::size_t d = 0; d < watch.drives.size(); ++d)
-    page.row({watch.drives[d].id, number_words("{:.2f}", watch.drives[d].log10_evidence),
+    page.row({watch.drives[d].id, std::to_string(watch.drives[d].windows),
+              number_words("{:.2f}", watch.drives[d].log10_evidence),
               d < watch.onset_shares.size() ? fmt::format("{:.1f} %", 100.0 * watch.onset_shares[d]) : "",
               watch.drives[d].alarm ? "yes" : "no"});
 }
@@ -130,7 +131,13 @@ void write_first_pointer(ReportPage& page, const DriveWatch& watch) {
 }  // namespace
 
 std::string change_words(const DriveWatch& watch) {
-  if (!watch.alarm) return "nothing has changed as far as these drives show";
+  const std::size_t silent = watch.silent_drives();
+  if (silent == watch.drives.size())
+    return "nothing can be said: no drive has a window of use (two rows with position and attitude, on the "
+           "terrain)";
+  if (!watch.alarm)
+    return fmt::format("nothing has changed as far as these drives show{}",
+                       silent == 0 ? "" : fmt::format(" ({} of them have no window of use)", silent));
   return fmt::format(
       "something has changed: the first drive that differs is {}; the alarm was raised at {} ({} drives from "
       "the most probable one on)",

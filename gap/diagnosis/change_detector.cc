@@ -60,6 +60,8 @@ double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::Matrix
   const Eigen::VectorXd solved = llt.matrixL().solve(known_product_);
 
   const std::size_t drives = drives_.size();
+  start_shares_.assign(drives, 0.0);
+  if (kinds_.empty()) return log_evidence_;
   Eigen::MatrixXd crossed = Eigen::MatrixXd::Zero(known.cols(), changes.cols());
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(changes.cols(), changes.cols());
   Eigen::VectorXd product = Eigen::VectorXd::Zero(changes.cols());
@@ -100,7 +102,6 @@ double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::Matrix
   start_ = std::max_element(of_start.begin(), of_start.end(), [](const auto& a, const auto& b) {
              return a.second < b.second;
            })->first;
-  start_shares_.assign(drives, 0.0);
   const double started = log_of_sum({all.begin() + 1, all.end()});
   for (const auto& [c, log] : of_start) start_shares_[c] = std::exp(log - started);
   std::vector<double> shares;

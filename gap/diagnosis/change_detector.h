@@ -41,7 +41,8 @@ class ChangeDetector {
  public:
   ChangeDetector(ChangeOptions options, std::vector<ChangeKind> kinds);
 
-  // One more drive, whitened: residuals, what may be re-tuned, and the kinds' columns. Returns log M.
+  // One more drive, whitened: residuals, what may be re-tuned, and the kinds' columns. Returns log M, which
+  // stays 0 where there is no kind of change.
   double add(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known, const Eigen::MatrixXd& changes);
 
   bool alarmed() const { return above_ >= options_.confirmed_by; }

@@ -120,15 +120,35 @@ class Diagnoser {
           "kinds");
   }
 
+  // Whether drives of use are in more than one fold.
+  bool can_be_held_out() const {
+    const std::vector<std::size_t> groups = repeat_groups(campaign_);
+    std::optional<std::size_t> first;
+    for (std::size_t w = 0; w < prepared_.windows.size(); ++w) {
+      if (!prepared_.model->used(w)) continue;
+      const std::size_t fold = groups[prepared_.windows[w].drive] % static_cast<std::size_t>(options_.folds);
+      if (fold != first.value_or(fold)) return true;
+      first = fold;
+    }
+    return false;
+  }
+
   // Whether nothing can be said; the verdict says so.
   bool too_few() {
     const bool since = campaign_.reference != nullptr;
     const int min_drives = since ? options_.reference.min_drives : options_.verdict.min_drives;
     const int min_windows = since ? options_.reference.min_windows : options_.verdict.min_windows;
-    if (d_.drives >= static_cast<std::size_t>(min_drives) &&
-        d_.windows >= static_cast<std::size_t>(min_windows))
-      return false;
+    const bool enough = d_.drives >= static_cast<std::size_t>(min_drives) &&
+                        d_.windows >= static_cast<std::size_t>(min_windows);
+    if (enough && can_be_held_out()) return false;
     d_.verdict = Verdict::kInsufficient;
+    if (enough) {
+      d_.reason =
+          "all drives are repeats of one: without drives of another kind none can be held out of a fit, and "
+          "no name can be checked";
+      d_.overturned_by = "a drive that is no repeat of these";
+      return true;
+    }
     d_.reason = fmt::format(
         "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
         "tell causes apart",

@@ -82,14 +82,18 @@ Changes changes_of(const DriveCampaign& campaign, const PreparedCampaign& prepar
   return changes;
 }
 
-// Rows of every drive: windows follow each other in the drives' order.
-std::vector<std::pair<Eigen::Index, Eigen::Index>> rows_of_drives(const PreparedCampaign& prepared,
-                                                                  std::size_t drives) {
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> rows(drives, {0, 0});
+// What each drive has of all rows: windows follow each other in the drives' order.
+struct DriveRows {
+  Eigen::Index first = 0, count = 0;
+  std::size_t windows = 0;  // of use
+};
+std::vector<DriveRows> rows_of_drives(const PreparedCampaign& prepared, std::size_t drives) {
+  std::vector<DriveRows> rows(drives);
   for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-    auto& [first, count] = rows[prepared.windows[w].drive];
-    if (count == 0) first = static_cast<Eigen::Index>(prepared.model->offset(w));
-    count += static_cast<Eigen::Index>(prepared.windows[w].observations.size());
+    DriveRows& of = rows[prepared.windows[w].drive];
+    if (of.count == 0) of.first = static_cast<Eigen::Index>(prepared.model->offset(w));
+    of.count += static_cast<Eigen::Index>(prepared.windows[w].observations.size());
+    of.windows += prepared.model->used(w) ? 1 : 0;
   }
   return rows;
 }
@@ -128,7 +132,7 @@ Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
   ChangeDetector detector(options.change, changes.kinds);
   const auto rows = rows_of_drives(prepared, campaign.drives.size());
   for (std::size_t d = 0; d < campaign.drives.size() && !progress.cancelled(); ++d) {
-    const auto [first, count] = rows[d];
+    const auto [first, count, windows] = rows[d];
     const double log_evidence =
         detector.add(fit.white_linear.segment(first, count), fit.white_jacobian.middleRows(first, count),
                      changes.columns.middleRows(first, count));
@@ -141,7 +145,7 @@ Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
       watch.causes = causes_of(changes, detector.kind_shares());
     }
     watch.drives.push_back(
-        {campaign.drives[d].id, log_evidence / std::numbers::ln10, watch.alarm.has_value()});
+        {campaign.drives[d].id, windows, log_evidence / std::numbers::ln10, watch.alarm.has_value()});
   }
   if (!watch.alarm) watch.causes = causes_of(changes, detector.kind_shares());
   return {};
@@ -161,9 +165,11 @@ Result<DriveWatch> watch_drives(const DriveCampaign& campaign, const DriveCampai
                     all, own),
         {{"/learn", fmt::format("must be below {}, the number of drives", all)}});
   const DriveCampaign healthy = reference == nullptr ? drives_from_to(campaign, 0, own) : *reference;
+  const DriveCampaign watched = drives_from_to(campaign, own, all);
+  // Before the work of learning.
+  if (const auto checked = check_reference(healthy, watched); !checked) return fail(checked.error());
   const auto learnt = learn_reference(healthy, options, progress);
   if (!learnt) return fail(learnt.error());
-  const DriveCampaign watched = drives_from_to(campaign, own, all);
   const auto since = since_reference(*learnt, watched, options);
   if (!since) return fail(since.error());
 
@@ -178,11 +184,14 @@ Result<DriveWatch> watch_drives(const DriveCampaign& campaign, const DriveCampai
     return fail(followed.error());
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the watch was cancelled");
   if (!result.alarm || !watch.diagnose) return result;
-  // Drives before the change are healthy too, where they are of the same campaign.
   const std::size_t first = own + result.diagnosed_since;
-  const DriveCampaign before = reference == nullptr ? drives_from_to(campaign, 0, first) : healthy;
   const DriveCampaign changed = drives_from_to(campaign, first, all);
-  auto diagnosis = diagnose_since(before, changed, options, progress);
+  // Drives before the change are healthy too, where they are of the same campaign.
+  const auto asked = reference == nullptr
+                         ? since_reference(drives_from_to(campaign, 0, first), changed, options, progress)
+                         : since_reference(*learnt, changed, options);
+  if (!asked) return fail(asked.error());
+  auto diagnosis = diagnose(*asked, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   result.diagnosis = std::move(*diagnosis);
   result.diagnosed = changed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +13,9 @@
 
 namespace slipway::gap {
 
-// Whether drives, in their order, still are what healthy ones taught: see change_detector.h. All that the
-// evidence of a drive rests on was known before it was made.
+// Whether drives, in their order, still are what healthy ones taught: see change_detector.h. Which kinds of
+// change there are, and in which directions the difference is open, is of all the drives of a watch: with
+// more of them the evidence up to an earlier one may differ in the second decimal of its logarithm.
 struct WatchOptions {
   ChangeOptions change;
   int learn = 12;  // first drives of the campaign that are taken as healthy, where no reference is given
@@ -22,6 +24,7 @@ struct WatchOptions {
 
 struct WatchedDrive {
   std::string id;
+  std::size_t windows = 0;      // of use: positions and attitudes on the terrain; a drive of 0 says nothing
   double log10_evidence = 0.0;  // up to this drive
   bool alarm = false;           // at this drive or before
 };
@@ -45,6 +48,11 @@ struct DriveWatch {
   std::size_t learnt_drives = 0;
   double alpha = 0.0;
   std::vector<WatchedDrive> drives;
+  // Drives without a window of use.
+  std::size_t silent_drives() const {
+    return static_cast<std::size_t>(
+        std::count_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.windows == 0; }));
+  }
   std::optional<std::size_t> alarm;  // index into `drives`
   std::size_t since = 0;             // with an alarm: the most probable first drive that differs
   // With an alarm, of the evidence at the alarm: what each drive up to then has of it as the first that

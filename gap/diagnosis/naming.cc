@@ -16,7 +16,7 @@ Names set_of(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-// The same beside a cause from outside of a known form.
+// Whether a library effect keeps its name beside a cause from outside of a known form.
 bool stands_beside_form(const EffectMarginal& marginal, const VerdictOptions& options) {
   return as_good_as_certain(marginal, options) ||
          (marginal.probability >= options.min_probability_closing_most &&

@@ -1,6 +1,7 @@
 #include "gap/diagnosis/reference_diagnosis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,27 @@
 namespace slipway::gap {
 namespace {
 
-// Why the drives are not those of one rover on one body.
+bool same_reading(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+// Whether two drives were recorded as the same rows, whatever they are called. Where no pose was measured
+// nobody can say.
+bool same_rows(const MeasuredDriveSeries& a, const MeasuredDriveSeries& b) {
+  const auto same = [](const DriveSample& one, const DriveSample& other) {
+    bool equal = same_reading(one.time_s, other.time_s) && same_reading(one.p_MB.x(), other.p_MB.x()) &&
+                 same_reading(one.p_MB.y(), other.p_MB.y()) &&
+                 same_reading(one.attitude.yaw_rad, other.attitude.yaw_rad);
+    for (std::size_t k = 0; equal && k < one.wheels.size(); ++k)
+      equal = same_reading(one.wheels[k].current_a, other.wheels[k].current_a);
+    return equal;
+  };
+  return std::any_of(a.samples.begin(), a.samples.end(),
+                     [](const DriveSample& sample) { return sample.p_MB.allFinite(); }) &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(), same);
+}
+
+// Why the drives are not those of one rover on one body, or not others than the reference's.
 std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaign& campaign) {
   constexpr double kSameGravity = 1e-6;
   std::vector<Fault> faults;
@@ -37,6 +58,23 @@ std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaig
   return faults;
 }
 
+// Drives of a simulator without noise may have the same rows and be others, so that nothing is refused.
+void note_same_rows(const DriveCampaign& reference, DriveCampaign& campaign) {
+  std::vector<std::string> same;
+  for (const MeasuredDriveSeries& drive : campaign.drives)
+    if (std::any_of(reference.drives.begin(), reference.drives.end(),
+                    [&](const MeasuredDriveSeries& healthy) { return same_rows(drive, healthy); }))
+      same.push_back(drive.id);
+  if (same.empty()) return;
+  constexpr std::size_t kNamed = 3;
+  const std::size_t named = std::min(kNamed, same.size());
+  campaign.notes.push_back(fmt::format(
+      "{} of {} drives have the very rows of a drive of the reference (the first: {}): where they are the "
+      "same recordings they were taken as healthy, and can't show a change",
+      same.size(), campaign.drives.size(),
+      fmt::join(same.begin(), same.begin() + static_cast<std::ptrdiff_t>(named), ", ")));
+}
+
 // By copies, since rows of the catalogue give members to write to.
 bool same_numbers(sim::Soil a, sim::Soil b) {
   const auto fields = sim::soil_fields();
@@ -44,9 +82,23 @@ bool same_numbers(sim::Soil a, sim::Soil b) {
                      [&](const sim::SoilField& row) { return row.number(a) == row.number(b); });
 }
 
+// But for words about it, and the rate that its campaigns have asked of it.
+bool same_numbers(sim::RoverModel rover, const sim::RoverModel& known) {
+  rover.summary = known.summary;
+  rover.sources = known.sources;
+  rover.assumed = known.assumed;
+  rover.drive.max_wheel_rate_rad_s = known.drive.max_wheel_rate_rad_s;
+  return rover == known;
+}
+
 // As the reference has rover and soils, which what was learnt is relative to.
 void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
   auto rover = std::make_shared<sim::RoverModel>(*reference.rover);
+  if (!same_numbers(*campaign.rover, *rover) || campaign.parameter_std != reference.parameter_std)
+    campaign.notes.push_back(fmt::format(
+        "rover {} has other numbers in the reference, or how well they were measured differs; those of the "
+        "reference are taken, since what was learnt is relative to them",
+        rover->name));
   rover->drive.max_wheel_rate_rad_s =
       std::max(rover->drive.max_wheel_rate_rad_s, campaign.rover->drive.max_wheel_rate_rad_s);
   campaign.rover = std::move(rover);
@@ -65,15 +117,20 @@ void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
 
 }  // namespace
 
+Result<void> check_reference(const DriveCampaign& reference, const DriveCampaign& campaign) {
+  auto faults = mismatches(reference, campaign);
+  if (faults.empty()) return {};
+  const std::string message = faults.front().message;
+  return fail(ErrorCode::kInvalidRequest, message, std::move(faults));
+}
+
 Result<DriveCampaign> since_reference(const LearntReference& learnt, const DriveCampaign& campaign,
                                       const DiagnosisOptions& options) {
   const DriveCampaign& reference = learnt.prepared.model->campaign();
-  if (auto faults = mismatches(reference, campaign); !faults.empty()) {
-    const std::string message = faults.front().message;
-    return fail(ErrorCode::kInvalidRequest, message, std::move(faults));
-  }
+  if (const auto checked = check_reference(reference, campaign); !checked) return fail(checked.error());
   DriveCampaign since = campaign;
   adopt_nominal(reference, since);
+  note_same_rows(reference, since);
   since.reference = belief_for(learnt, since, options.reference);
   return since;
 }
@@ -81,10 +138,7 @@ Result<DriveCampaign> since_reference(const LearntReference& learnt, const Drive
 Result<DriveCampaign> since_reference(const DriveCampaign& reference, const DriveCampaign& campaign,
                                       const DiagnosisOptions& options, Progress& progress) {
   // Before the work of learning.
-  if (auto faults = mismatches(reference, campaign); !faults.empty()) {
-    const std::string message = faults.front().message;
-    return fail(ErrorCode::kInvalidRequest, message, std::move(faults));
-  }
+  if (const auto checked = check_reference(reference, campaign); !checked) return fail(checked.error());
   const auto learnt = learn_reference(reference, options, progress);
   if (!learnt) return fail(learnt.error());
   return since_reference(*learnt, campaign, options);

@@ -61,8 +61,8 @@ void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
 
 TrackShares RoverBalance::tracks_in(const Vector& unknowns) const {
   const Eigen::Vector2d d = geometry_.travel, e(-d.y(), d.x());
-  return tracks_followed(rover(), unknowns[0] * d + unknowns[1] * e,
-                         unknowns[2] / geometry_.half_wheelbase_m);
+  return tracks_followed(rover(), unknowns[0] * d + unknowns[1] * e, unknowns[2] / geometry_.half_wheelbase_m,
+                         in_air_);
 }
 
 void RoverBalance::follow_tracks(const Vector& unknowns) {
@@ -87,12 +87,12 @@ void RoverBalance::set_tracks(const TrackShares& tracks) {
   tracks_ = tracks;
   for (int k = 0; k < wheel_count(); ++k) {
     share_in_track_[k] = tracks_.row(k).sum();
-    put_in_track(k, share_in_track_[k], numbers_[k]);
+    put_numbers_in_track(k, share_in_track_[k], numbers_[k]);
   }
   if (geometry_.undetermined > 0) set_compatibility_of_sinkages();
 }
 
-void RoverBalance::put_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const {
+void RoverBalance::put_numbers_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const {
   const TrackFactors track = track_factors(soils_[wheel], share_in_track);
   numbers.stiffness = track.stiffness * fresh_stiffness_[wheel];
   numbers.bulldozing = track.bulldozing * fresh_bulldozing_[wheel];
@@ -100,7 +100,7 @@ void RoverBalance::put_in_track(int wheel, double share_in_track, WheelNumbers& 
 
 Soil RoverBalance::soil_under(const Trial& trial) const {
   Soil soil = soils_[trial.wheel];
-  sim::put_in_track(soil, trial.share_in_track);
+  put_in_track(soil, trial.share_in_track);
   return soil;
 }
 
@@ -165,7 +165,7 @@ void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelCon
     numbers[count].theta_f = trial.entry_angle_rad;
     numbers[count].forward = trial.motion.forward;
     numbers[count].leftward = trial.motion.leftward;
-    if (follows_tracks_) put_in_track(trial.wheel, trial.share_in_track, numbers[count]);
+    if (follows_tracks_) put_numbers_in_track(trial.wheel, trial.share_in_track, numbers[count]);
     of[count++] = t;
     contacts[t] = {{}, trial.motion, at.motion.rate_rad_s, 0.0};
   }

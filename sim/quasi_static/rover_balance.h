@@ -153,7 +153,7 @@ class RoverBalance {
   void set_soils(const PerWheel<Soil>& soils);
   void follow_tracks(const Vector& unknowns);
   void set_tracks(const TrackShares& tracks);
-  void put_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const;
+  void put_numbers_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const;
   TrackShares tracks_in(const Vector& unknowns) const;
   using Motions = Eigen::Matrix<double, BalanceGeometry::kPaddedEquilibrium, kMotions>;
   void add_slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes, Motions& by_motions) const;

@@ -10,6 +10,8 @@ struct EffectSetting {
   std::string name;
   std::map<std::string, double> parameters;
   bool on = true;
+
+  bool operator==(const EffectSetting&) const = default;
 };
 
 }  // namespace slipway::sim

@@ -28,6 +28,8 @@ struct DriveMotor {
   double torque_constant_per_k = 0.0;
   double resistance_per_k = 0.0;
   double friction_per_k = 0.0;
+
+  bool operator==(const DriveMotor&) const = default;
 };
 
 // The motor's own numbers at a temperature. Each is kept above a tenth of its value at the reference.

@@ -41,6 +41,8 @@ struct WheelModel {
   std::optional<double>
       software_radius_m;  // that the rover's own software reckons with; radius_m where absent
 
+  bool operator==(const WheelModel&) const = default;
+
   WheelGeometry geometry() const { return {radius_m, width_m, grousers.value_or(Grousers{}), rim_friction}; }
   double reckoned_radius_m() const { return software_radius_m.value_or(radius_m); }
 };
@@ -62,6 +64,8 @@ struct Suspension {
   std::optional<double> differential_stiffness_nm_rad = {}, differential_damping_nms_rad = {};
   // Stops of the joints, either way from their places at rest.
   std::optional<double> rocker_stop_rad = {}, bogie_stop_rad = {};
+
+  bool operator==(const Suspension&) const = default;
 };
 
 // Where the mass is: what the dynamic level needs besides the whole mass and its centre; rover_multibody.h
@@ -72,6 +76,8 @@ struct MassDistribution {
   std::optional<double> bogie_kg = {};   // each
   // Of the body without its suspension about its own centre of mass, along x, y, z.
   std::optional<Eigen::Vector3d> body_inertia_kg_m2 = {};
+
+  bool operator==(const MassDistribution&) const = default;
 };
 
 // A rover on any number of wheels from 3 to kMaxWheels: immutable once built, shared by pointer.
@@ -109,6 +115,8 @@ struct RoverModel {
   std::vector<EffectSetting> effects;
   // True less reckoned attitude: what the ground's map or the rover's inclinometer has wrong.
   double roll_bias_rad = 0.0, pitch_bias_rad = 0.0;
+
+  bool operator==(const RoverModel&) const = default;
 
   double smallest_wheel_radius_m() const;
   double wheel_mass_kg() const;  // of each wheel with its motors; 3 % of the whole where none is given

@@ -21,7 +21,7 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
 }
 
 bool remembers_tracks(const Soil& soil) {
-  return soil.multipass_stiffening > 0.0 || soil.bulldozing > 0.0;
+  return soil.multipass_stiffening > 0.0 || (soil.bulldozing > 0.0 && soil.track_bulldozing != 1.0);
 }
 
 // The soil before a wheel in a track was pushed aside by the wheel that made it, or some of it.

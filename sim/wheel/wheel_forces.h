@@ -24,6 +24,8 @@ struct Grousers {
   // given, and by_spacing times what the spacing makes of it (grouser_law.h).
   double shear_share = 0.0;
   double shear_by_spacing = 0.0;
+
+  bool operator==(const Grousers&) const = default;
 };
 
 // What the laws need of a wheel.

@@ -52,6 +52,18 @@ TEST(StartWeight, AddsUpToOneAtMost) {
   EXPECT_LT(sum, 1.0);
 }
 
+// Drives off the map had no column of any kind, and the watch died of it.
+TEST(ChangeDetector, HasNoEvidenceWhereNothingCouldShow) {
+  ChangeDetector detector({}, {});
+  for (int d = 0; d < 3; ++d) {
+    const ChangedDrive made = changed_drive(1, d, Eigen::VectorXd::Zero(kRetuned), 3.0);
+    EXPECT_EQ(detector.add(made.residuals, made.known, Eigen::MatrixXd(kDriveRows, 0)), 0.0);
+  }
+  EXPECT_FALSE(detector.alarmed());
+  EXPECT_TRUE(detector.kind_shares().empty());
+  EXPECT_EQ(detector.start_shares(), std::vector<double>(3, 0.0));
+}
+
 // Against likelihoods with every covariance written out.
 TEST(ChangeDetector, IsTheMixtureOfLikelihoodRatios) {
   const ChangeOptions options{.alpha = 0.01, .share = 1.0, .sizes = {0.5, 2.0}};

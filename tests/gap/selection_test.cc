@@ -35,6 +35,20 @@ TEST(ChosenAmong, IsSomethingUnknownWhereThatHasMoreThanHalfInAll) {
   EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.6), candidate({}, 0.4, true)}), 0U);
 }
 
+// A weak side wall's resistance came as grousers of a probability of 0.3, beside something unknown of 0.4 and
+// nothing of 0.15.
+TEST(ChosenAmong, IsNoEffectThatIsLessProbableThanNoneOfTheLibraryInAll) {
+  EXPECT_EQ(chosen_among(std::vector{candidate({}, 0.38, true), candidate({"a"}, 0.28), candidate({}, 0.15),
+                                     candidate({"b"}, 0.15), candidate({"a", "b"}, 0.02)}),
+            0U);
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.36), candidate({"a"}, 0.04, true),
+                                     candidate({}, 0.25), candidate({}, 0.2, true), candidate({"b"}, 0.15)}),
+            2U)
+      << "the most probable of them";
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.4), candidate({}, 0.35), candidate({"b"}, 0.25)}),
+            0U);
+}
+
 // A pull along the travel, and one that grows with speed and leans on the imprecision of any simulator.
 TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
   const double alike_share = SelectionOptions{}.alike_form_share;

@@ -67,6 +67,57 @@ assert named > 0.3, diagnosis["candidates"]
 since = json.loads((folder / "since" / "diagnosis.json").read_text())
 assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
 CHECK
+# Drives off the map say nothing, and are no answer: the watch died of them once.
+cp -r "$folder/healthy/s01" "$folder/off"
+python3 - "$folder/off" <<'OFF'
+import csv, json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+for drive in json.loads((folder / "campaign.json").read_text())["drives"]:
+    path = folder / drive["file"]
+    rows = list(csv.DictReader(path.read_text().splitlines()))
+    for row in rows:
+        row["x_m"] = str(float(row["x_m"]) + 1e5)
+    with path.open("w", newline="") as out:
+        writer = csv.DictWriter(out, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+OFF
+status=0
+"$slipway" watch "$folder/off" --reference "$folder/healthy/references/s01" --data "$data" >"$folder/words" || status=$?
+[ "$status" = 1 ] && grep -q 'nothing can be said: no drive has a window of use' "$folder/words"
+status=0
+"$slipway" watch "$folder/healthy/s01" --reference "$folder/off" --data "$data" >"$folder/words" 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'have no window of use' "$folder/err"
+# Repeats of one drive can't be held out of a fit, so that no name can be checked.
+cp -r "$folder/set/s01" "$folder/one"
+python3 - "$folder/one/campaign.json" <<'ONE'
+import json, pathlib, sys
+path = pathlib.Path(sys.argv[1])
+campaign = json.loads(path.read_text())
+first = campaign["drives"][10]
+campaign["drives"] = [first] + [{**first, "id": f"again{k}", "repeat_of": first["id"]} for k in range(6)]
+path.write_text(json.dumps(campaign))
+ONE
+"$slipway" diagnose "$folder/one" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/one.json"
+# Drives whose rows the reference has too, and a reference with other numbers of the rover, are told of.
+cp -r "$folder/healthy/references/s01" "$folder/twin"
+python3 - "$folder/twin/campaign.json" <<'TWIN'
+import json, pathlib, sys
+path = pathlib.Path(sys.argv[1])
+campaign = json.loads(path.read_text())
+campaign["drives"] = campaign["drives"][:12]
+campaign["rover"]["wheels"][0]["radius_m"] *= 1.01
+path.write_text(json.dumps(campaign))
+TWIN
+"$slipway" diagnose "$folder/twin" --reference "$folder/healthy/references/s01" --data "$data" --json >"$folder/twin.json"
+python3 - "$folder" <<'NOTES'
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+one = json.loads((folder / "one.json").read_text())
+assert one["verdict"] == "insufficient" and "repeats of one" in one["reason"], one["reason"]
+notes = " ".join(json.loads((folder / "twin.json").read_text())["notes"])
+assert "12 of 12 drives have the very rows" in notes and "has other numbers in the reference" in notes, notes
+NOTES
 # Neither are drives their own reference, nor those of another rover.
 status=0
 "$slipway" diagnose "$folder/set/s01" --reference "$folder/set/s01" --data "$data" >/dev/null 2>"$folder/err" || status=$?

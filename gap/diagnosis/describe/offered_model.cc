@@ -6,8 +6,9 @@ namespace slipway::gap {
 namespace {
 
 // A model beside which something unknown is at work is still the better one to plan with, where no channel
-// of drives held out is predicted worse by it than by the nominal one and one is predicted much better.
-bool is_nearer_beside_something_unknown(const HeldOutOptions& options, Diagnosis& d) {
+// of drives held out is predicted worse by it than by the nominal one and one is predicted much better. Notes
+// what was found.
+bool predicts_nearer_or_notes_why_not(const HeldOutOptions& options, Diagnosis& d) {
   bool better = false;
   for (const ChannelClosure& c : d.gap) {
     if (c.retuned.value > options.no_worse * c.nominal.value) {
@@ -37,7 +38,7 @@ void offer_model(const FittedExplanation& reported, double log_density_gain, con
     return;
   }
   const bool offered = names_effects(d.verdict) || d.verdict == Verdict::kParameters ||
-                       (d.verdict == Verdict::kUnknown && is_nearer_beside_something_unknown(options, d));
+                       (d.verdict == Verdict::kUnknown && predicts_nearer_or_notes_why_not(options, d));
   if (!offered) return;
   d.model = reported.hypothesis.state(reported.x);
   d.model_effects = reported.hypothesis.settings(reported.x);

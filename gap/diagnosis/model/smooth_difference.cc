@@ -30,6 +30,8 @@ constexpr double kBeyond = 10.0;
 // How steep it is there may change after so much of a circumstance, and after as much again: what was learnt
 // of 10 deg says little of 15.
 constexpr double kSegment = 0.5;
+// Of a kind of drives that a reference has none of even a level one lies so far beyond it.
+constexpr double kUnmet = 1.0;
 constexpr std::size_t kSegments = 3;
 constexpr std::size_t kBeyondFunctions = 2 * kRanged * kSegments;
 
@@ -81,8 +83,11 @@ Functions smooth_functions(const Met& at) {
           d * p, d * r, v,     v * p,           k, std::abs(k), warm};
 }
 
-// What a range is of: of drives forward, of drives backward and of turns in place apart. NaN where a window
-// says nothing of it.
+// The ranged circumstances that every window of a kind has: drives forward, drives backward, turns in place.
+constexpr std::array<std::size_t, 3> kFirstOfKind{0, 3, 7};
+
+// What a range is of: of drives forward, of drives backward and of turns in place apart, and of speed and
+// curvature of both. NaN where a window says nothing of it.
 std::array<double, kRanged> ranged(const Met& at) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::array<double, kRanged> of;
@@ -91,6 +96,7 @@ std::array<double, kRanged> ranged(const Met& at) {
     of[7] = std::hypot(at.p, at.r);  // at the headings between up and across too
     of[8] = at.p;
     of[9] = at.r;
+    of[10] = at.turn;
     return of;
   }
   const std::size_t first = at.d < 0.0 ? 3 : 0;
@@ -98,6 +104,8 @@ std::array<double, kRanged> ranged(const Met& at) {
   of[first + 1] = at.r;
   of[first + 2] = at.s;
   of[6] = at.warm;
+  of[11] = at.v;
+  of[12] = at.k;
   return of;
 }
 
@@ -151,7 +159,7 @@ Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double>
 
 SmoothRange smooth_range(const WindowModel& model, std::span<const double> expected) {
   SmoothRange range;
-  std::array<bool, kRanged> seen{};
+  std::array<bool, kRanged>& seen = range.seen;
   for (std::size_t w = 0; w < model.windows().size(); ++w) {
     if (!model.used(w)) continue;
     const std::array<double, kRanged> value = ranged(met_by(model, w, expected));
@@ -175,7 +183,9 @@ Eigen::MatrixXd columns_beyond(const WindowModel& model, std::span<const double>
     const std::array<double, kRanged> value = ranged(met_by(model, w, expected));
     for (std::size_t c = 0; c < kRanged; ++c) {
       if (std::isnan(value[c])) continue;
-      const std::array<double, 2> over{range.lowest[c] - value[c], value[c] - range.highest[c]};
+      std::array<double, 2> over{range.lowest[c] - value[c], value[c] - range.highest[c]};
+      const bool is_first = std::find(kFirstOfKind.begin(), kFirstOfKind.end(), c) != kFirstOfKind.end();
+      if (is_first && !range.seen[c]) over[1] = kUnmet + std::max(0.0, over[1]);
       for (std::size_t side = 0; side < over.size(); ++side)
         for (std::size_t k = 0; k < kSegments; ++k) {
           const double in = std::max(0.0, over[side] - kSegment * static_cast<double>(k));

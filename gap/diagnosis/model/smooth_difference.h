@@ -27,16 +27,19 @@ Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double>
                                const SmoothScale& scale);
 
 // The least and the greatest of what the windows of a campaign met, by circumstance: slopes along and across
-// and slip of drives forward and of drives backward, the motors' temperature, slopes of turns in place.
-constexpr std::size_t kRanged = 10;
+// and slip of drives forward and of drives backward, the motors' temperature, slopes and sense of turns in
+// place, speed and curvature. What no window met is 0.
+constexpr std::size_t kRanged = 13;
 struct SmoothRange {
   std::array<double, kRanged> lowest{}, highest{};
+  std::array<bool, kRanged> seen{};
 };
 SmoothRange smooth_range(const WindowModel& model, std::span<const double> expected);
 
 // What a reference of this range can't have told: columns that are 0 for every window within it and grow
 // beyond either end of each circumstance, in pieces, for each channel and wheel; only those that are not 0
-// everywhere. Their coefficients are believed to be 0 with a deviation of 1.
+// everywhere. Where it has no drive backward, or no turn in place, all of those lie beyond it. Their
+// coefficients are believed to be 0 with a deviation of 1.
 Eigen::MatrixXd columns_beyond(const WindowModel& model, std::span<const double> expected,
                                const SmoothScale& scale, const SmoothRange& range);
 

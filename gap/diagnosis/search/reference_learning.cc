@@ -1,5 +1,7 @@
 #include "gap/diagnosis/search/reference_learning.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -210,6 +212,10 @@ Result<LearntReference> learn_reference(const DriveCampaign& reference, const Di
   if (!prepared) return fail(prepared.error());
   LearntReference learnt;
   learnt.prepared = std::move(*prepared);
+  if (learnt.prepared.used_windows() == 0)
+    return fail(ErrorCode::kInvalidRequest,
+                fmt::format("the healthy drives of {} have no window of use", reference.name),
+                {{"/reference", "must have a drive with two rows of position and attitude on the terrain"}});
   learnt.names = names_with_soils(learnt.prepared.null->hypothesis, reference);
   Learner learner(reference, options, learnt);
   for (int round = 0; round < options.reference.rounds; ++round) {

@@ -13,10 +13,10 @@
 namespace slipway::gap {
 
 // What healthy drives teach: parameters and difference together, as one normal belief. The difference between
-// model and drives is a smooth one (smooth_difference.h) whose coefficients b are believed to be 0 with a
-// deviation a group (two of each channel), of ReferenceOptions::sizes. Beside the null's columns A in prior
-// deviations and B those of the coefficients, both whitened, the belief of (u, b) given the drives is normal
-// with precision [A B]^T [A B] + 1.
+// model and drives is a sum of the columns of difference_columns.h, whose coefficients b are believed to be 0
+// with a deviation a group (three of each channel), of ReferenceOptions::sizes. Beside the null's columns A
+// in prior deviations and B those of the coefficients, both whitened, the belief of (u, b) given the drives
+// is normal with precision [A B]^T [A B] + 1.
 struct LearntReference {
   PreparedCampaign prepared;       // of the reference drives; refers to the campaign that was learnt from
   std::vector<std::string> names;  // of its nuisances; a soil's has the soil's name behind
@@ -27,7 +27,8 @@ struct LearntReference {
   SmoothRange range;
 };
 
-// The campaign must outlive what is learnt. Errors: cancelled.
+// The campaign must outlive what is learnt. Errors: invalid_request at /reference where no drive has a window
+// of use; cancelled.
 Result<LearntReference> learn_reference(const DriveCampaign& reference, const DiagnosisOptions& options,
                                         Progress& progress);
 

@@ -26,6 +26,21 @@ std::size_t simplest_of_the_best(std::span<const Candidate> candidates, const Se
   return best;
 }
 
+// Whether explanations without an effect of the library are more probable in all than those with one of
+// these.
+bool rather_without(const std::vector<std::string>& effects, std::span<const Candidate> candidates) {
+  double with = 0.0, without = 0.0;
+  for (const Candidate& c : candidates) {
+    const std::vector<std::string> own = library_effects_of(c);
+    const bool has_one = std::any_of(own.begin(), own.end(), [&](const std::string& effect) {
+      return std::find(effects.begin(), effects.end(), effect) != effects.end();
+    });
+    if (own.empty()) without += c.probability;
+    if (has_one) with += c.probability;
+  }
+  return without > with;
+}
+
 // The explanations that resamples choose among, most probable first, with their linearised evidence.
 struct Running {
   std::vector<Candidate> candidates;
@@ -67,10 +82,15 @@ Running running_of(const ExplanationSearch& search, const PreparedCampaign& prep
 std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options) {
   double unknown = 0.0;
   for (const Candidate& c : candidates) unknown += c.unknown() ? c.probability : 0.0;
-  if (unknown <= options.unknown_majority) return simplest_of_the_best(candidates, options);
-  const auto first =
-      std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.unknown(); });
-  return static_cast<std::size_t>(first - candidates.begin());
+  const auto first_where = [&](const auto& holds) {
+    return static_cast<std::size_t>(std::find_if(candidates.begin(), candidates.end(), holds) -
+                                    candidates.begin());
+  };
+  if (unknown > options.unknown_majority) return first_where([](const Candidate& c) { return c.unknown(); });
+  const std::size_t best = simplest_of_the_best(candidates, options);
+  const std::vector<std::string> effects = library_effects_of(candidates[best]);
+  if (effects.empty() || !rather_without(effects, candidates)) return best;
+  return first_where([](const Candidate& c) { return library_effects_of(c).empty(); });
 }
 
 std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double alike_share) {

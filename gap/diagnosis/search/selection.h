@@ -13,7 +13,9 @@ namespace slipway::gap {
 
 // Which of the candidates, most probable first, the answer is: the most probable one with something unknown,
 // of whatever form, where these have the majority; else the most probable one, or, where none is certain, one
-// with fewer effects of the same that is not much less probable. What adds little is not worth a name.
+// with fewer effects of the same that is not much less probable. What adds little is not worth a name; nor
+// has an effect one where explanations without any effect of the library are more probable together than
+// those with it: then the most probable of them is the answer.
 std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options = {});
 
 // Of explanations with a cause from outside and the same effects that have `alike_share` of the chosen one's

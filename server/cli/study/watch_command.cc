@@ -85,7 +85,9 @@ int watch(const WatchCommand& options) {
                           api::json::watch_document(found));
   }
   const int status = deliver(files, options.json ? api::json::watch_document(found) : watch_words(found));
-  return status != kDone ? status : found.alarm ? kChanged : kDone;
+  if (status != kDone) return status;
+  if (found.silent_drives() == found.drives.size()) return kFailed;
+  return found.alarm ? kChanged : kDone;
 }
 
 }  // namespace slipway::server
