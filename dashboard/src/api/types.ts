@@ -2142,7 +2142,7 @@ export interface components {
             /** @description Drives that the service ships or was sent and that are taken as healthy; the new drives are of its rover, on its terrains and soils, measured as its were. Where it is left out, which only a watch of a campaign may, the campaign's first drives are. Not together with continues */
             reference?: string;
             /**
-             * @description How many first drives of the campaign are taken as healthy, where no reference is given
+             * @description How many first drives of the campaign are taken as healthy, where no reference is given; fewer than it has
              * @default 12
              */
             learn: number;
@@ -2262,10 +2262,10 @@ export interface components {
                 held_out_score?: number;
                 /** @description Estimated parameters besides those that are always re-tuned */
                 complexity: number;
-                /** @description Logarithm of the evidence over that of nothing missing, before a share of it is believed */
-                log_evidence: number;
-                /** @description Logarithm of the prior probability */
-                log_prior: number;
+                /** @description Logarithm of the evidence over that of nothing missing, of the set's most probable form, before a share of it is believed */
+                log_evidence?: number;
+                /** @description Logarithm of the prior probability of that form */
+                log_prior?: number;
                 /** @description [1] Of resamples of the drives, repeats together, those that would have led to this set */
                 chosen_share: number;
             }[];
@@ -2279,7 +2279,7 @@ export interface components {
                 /** @description Between the traces, re-tuning projected out; of "parameters" between the effect's and all that re-tuning does [deg] */
                 angle_deg: number;
             }[];
-            /** @description Effects that these drives would hide behind re-tuned parameters, each with the fewest kinds of measurements that would uncover it; none of an effect that no such measurement uncovers */
+            /** @description Effects that these drives would hide behind re-tuned parameters, each with the least work that would uncover it; none of an effect that is too weak on these drives, or hidden behind what nobody measures; none with a reference */
             measurements: {
                 effect: string;
                 /** @description Ways to measure the parameters apart from drives */
@@ -2644,6 +2644,8 @@ export interface components {
                 drive: string;
                 /** @description The most probable first drive that differs */
                 since: string;
+                /** @description The first drive that is diagnosed: of those about as probable as `since` the last */
+                diagnosed_since?: string;
                 /** @description Drives from that one to the alarm */
                 delay_drives: number;
                 /** @description The fewest drives running, `since` among them, one of which is the first that differs by nine tenths of the evidence */
@@ -2656,6 +2658,8 @@ export interface components {
             };
             drives: {
                 id: string;
+                /** @description [1] Windows of use that the drive has: one without any says nothing */
+                windows?: number;
                 /** @description [1] Of a change up to this drive */
                 log10_evidence?: number;
                 /** @description At this drive or before */
