@@ -144,9 +144,9 @@ class Diagnoser {
     d_.verdict = Verdict::kInsufficient;
     if (enough) {
       d_.reason =
-          "all drives are repeats of one: without drives of another kind none can be held out of a fit, and "
-          "no name can be checked";
-      d_.overturned_by = "a drive that is no repeat of these";
+          "there is one drive of use, or repeats of one: without another none can be held out of a fit, and no "
+          "name can be checked";
+      d_.overturned_by = "another drive, that is no repeat";
       return true;
     }
     d_.reason = fmt::format(

@@ -67,7 +67,7 @@ TEST(ColumnsBeyond, AreNothingForTheDrivesThatWereLearntFrom) {
   EXPECT_EQ(all.beyond(all.range()).cols(), 0);
 }
 
-// Healthy turns in place came as a change since a reference that had none, on level ground.
+// A reference of other kinds has told nothing of one, on level ground neither.
 TEST(ColumnsBeyond, AreOpenForAKindOfDriveThatTheReferenceHasNoneOf) {
   const Predicted all(some_drives(1));
   const auto is_other = [](const sim::DriveCommand& command) { return !turns(command) && !backs(command); };
