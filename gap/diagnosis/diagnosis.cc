@@ -144,7 +144,8 @@ class Diagnoser {
     d_.verdict = Verdict::kInsufficient;
     if (enough) {
       d_.reason =
-          "there is one drive of use, or repeats of one: without another none can be held out of a fit, and no "
+          "there is one drive of use, or repeats of one: without another none can be held out of a fit, and "
+          "no "
           "name can be checked";
       d_.overturned_by = "another drive, that is no repeat";
       return true;
