@@ -321,18 +321,27 @@ void RoverBalance::move_along(const WheelSlopes& slopes, const Vector& unknowns)
   residual_at_.setZero();
 }
 
-// What the motion changes of the wheels' shares in tracks, by one-sided differences.
-void RoverBalance::add_slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes,
-                                        Motions& by_motions) const {
+// What the motion changes of the wheels' shares in tracks, by one-sided differences: of the wheels' loads,
+// which is returned, and of their depths, which goes into the rows of compatibility.
+RoverBalance::Motions RoverBalance::slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes,
+                                                     Matrix& jacobian) const {
   constexpr double kStep = 1e-7;
+  Motions by_motions = Motions::Zero();
   for (int motion = 0; motion < kMotions; ++motion) {
     Vector moved = unknowns;
     moved[motion] += kStep;
-    const Loads share_slope = (tracks_in(moved) - tracks_).rowwise().sum() / kStep;
+    const TrackShares tracks = tracks_in(moved);
+    const Loads share_slope = (tracks - tracks_).rowwise().sum() / kStep;
     for (int k = 0; k < wheel_count(); ++k)
       if (!in_air_[k])
         by_motions.col(motion).noalias() += place(k).effect * slopes.by_share[k] * share_slope[k];
+    if (geometry_.undetermined == 0) continue;
+    const PerWheel<double> depth = total_sinkages_m(unknowns), there = total_sinkages_m(unknowns, tracks);
+    auto rows = jacobian.col(motion).segment(equilibrium_count(), compatibility_of_depth_.rows());
+    for (int k = 0; k < wheel_count(); ++k)
+      rows += compatibility_of_depth_.col(k) * ((there[k] - depth[k]) / kStep);
   }
+  return by_motions;
 }
 
 RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns, const WheelSlopes& slopes) const {
@@ -346,7 +355,7 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns, const WheelS
     jacobian.col(kMotions + k).head(top) = by.col(0).head(top);
     by_motions += by.col(1) * at.forward_ratio + by.col(2) * at.leftward_ratio;
   }
-  if (follows_tracks_ && !holds_tracks_) add_slopes_by_tracks(unknowns, slopes, by_motions);
+  if (follows_tracks_ && !holds_tracks_) by_motions += slopes_by_tracks(unknowns, slopes, jacobian);
   jacobian.topLeftCorner(top, kMotions) = by_motions.topRows(top);
   if (geometry_.undetermined == 0) return jacobian;
   int row = top + geometry_.undetermined;

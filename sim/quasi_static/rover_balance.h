@@ -156,7 +156,8 @@ class RoverBalance {
   void put_numbers_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const;
   TrackShares tracks_in(const Vector& unknowns) const;
   using Motions = Eigen::Matrix<double, BalanceGeometry::kPaddedEquilibrium, kMotions>;
-  void add_slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes, Motions& by_motions) const;
+  Motions slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes, Matrix& jacobian) const;
+  PerWheel<double> total_sinkages_m(const Vector& unknowns, const TrackShares& tracks) const;
   void set_sinkage_scale();
   void set_compatibility();
   void set_compatibility_of_sinkages();

@@ -115,10 +115,14 @@ RoverBalance::Loads RoverBalance::resting_loads_n() {
 }
 
 PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
+  return total_sinkages_m(unknowns, tracks_);
+}
+
+PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns, const TrackShares& tracks) const {
   PerWheel<double> own(wheel_count());
   for (int k = 0; k < wheel_count(); ++k)
     own[k] = in_air_[k] ? 0.0 : sinkage_m(place(k).geometry.radius_m, unknowns[kMotions + k]);
-  return sim::total_sinkages_m(tracks_, rut_shares_, own);
+  return sim::total_sinkages_m(tracks, rut_shares_, own);
 }
 
 // Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let

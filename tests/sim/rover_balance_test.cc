@@ -27,12 +27,14 @@ RoverBalance::Vector sliding(const RoverBalance& balance) {
   return x;
 }
 
-class TracksInTheBalance : public ::testing::Test {
+// On a rocker-bogie, whose loads are determined, and on four rigid wheels, whose depths must fit each other.
+class TracksInTheBalance : public ::testing::TestWithParam<bool> {
  protected:
   TracksInTheBalance()
-      : rover_(six_wheeler()),
+      : rover_(GetParam() ? four_wheeler(SuspensionType::kRigid) : six_wheeler()),
         stance_(stance_on_plane(rover_, {.roll_rad = rad_from_deg(8.0), .pitch_rad = rad_from_deg(-6.0)})),
-        balance_(rover_, kMars, stance_, PerWheel<Soil>(6, with_memory()), {.speed_m_s = 0.04}) {}
+        balance_(rover_, kMars, stance_, PerWheel<Soil>(rover_.wheels.size(), with_memory()),
+                 {.speed_m_s = 0.04}) {}
 
   // Largest difference between the Jacobian and central differences of the residual, of the columns of the
   // motion.
@@ -57,7 +59,7 @@ class TracksInTheBalance : public ::testing::Test {
   RoverBalance balance_;
 };
 
-TEST_F(TracksInTheBalance, TheJacobianHasWhatTheMotionChangesOfTheShares) {
+TEST_P(TracksInTheBalance, TheJacobianHasWhatTheMotionChangesOfTheShares) {
   const RoverBalance::Vector x = sliding(balance_);
   EXPECT_LT(worst_slope(x), 2e-3);
   balance_.residual(x);
@@ -68,7 +70,7 @@ TEST_F(TracksInTheBalance, TheJacobianHasWhatTheMotionChangesOfTheShares) {
       << "which is much";
 }
 
-TEST_F(TracksInTheBalance, HeldSharesDoNotFollowTheMotionUntilTheyAreReleased) {
+TEST_P(TracksInTheBalance, HeldSharesDoNotFollowTheMotionUntilTheyAreReleased) {
   const RoverBalance::Vector x = sliding(balance_);
   RoverBalance::Vector straight = x;
   straight[1] = straight[2] = 0.0;
@@ -87,6 +89,8 @@ TEST_F(TracksInTheBalance, HeldSharesDoNotFollowTheMotionUntilTheyAreReleased) {
   balance_.release_tracks();
   EXPECT_EQ(balance_.residual(x), following);
 }
+
+INSTANTIATE_TEST_SUITE_P(SixOfABogieAndFourRigid, TracksInTheBalance, ::testing::Bool());
 
 }  // namespace
 }  // namespace slipway::sim
