@@ -61,8 +61,8 @@ void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
 
 TrackShares RoverBalance::tracks_in(const Vector& unknowns) const {
   const Eigen::Vector2d d = geometry_.travel, e(-d.y(), d.x());
-  return tracks_followed(rover(), unknowns[0] * d + unknowns[1] * e, unknowns[2] / geometry_.half_wheelbase_m,
-                         in_air_);
+  return tracks_followed(rover(), unknowns[0] * d + unknowns[1] * e,
+                         unknowns[2] / geometry_.half_wheelbase_m);
 }
 
 void RoverBalance::follow_tracks(const Vector& unknowns) {

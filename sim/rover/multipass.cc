@@ -84,8 +84,7 @@ class FreshWidth {
 
 }  // namespace
 
-TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate,
-                            const PerWheel<bool>& in_air) {
+TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate) {
   // Side by side is not ahead: a wheel leads where it is in front by more than rounding.
   constexpr double kAhead_m = 1e-6;
   const auto count = static_cast<Eigen::Index>(rover.wheels.size());
@@ -108,7 +107,6 @@ TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velo
     std::size_t found = 0;
     for (Eigen::Index m = 0; m < count; ++m) {
       if (m == k || width[m].from_m >= width[k].to_m || width[k].from_m >= width[m].to_m) continue;
-      if (!in_air.empty() && in_air[m]) continue;
       const double ahead = tracks.ahead_m(place[m], place[k]);
       if (ahead >= kAhead_m) leaders[found++] = {ahead, m};
     }

@@ -15,11 +15,10 @@ using TrackShares = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMa
 // `velocity` is that of B in frame B, in any unit of speed, and `yaw_rate` goes with it (rad for a metre in
 // that unit): tracks are the lines of the wheels' places in steady motion, straight ones or circles about the
 // centre of the turn. Where a rover slides aside its tracks lie apart. A rover without velocity (at rest, or
-// turning in place, where no wheel follows another for long) has none; nor does a wheel `in_air` (empty: none
-// is) leave one. Continuous in the motion, but for circles so tight that wheels stand half a turn apart on
-// them, and for the step from the tightest circle to a turn in place.
-TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate,
-                            const PerWheel<bool>& in_air = {});
+// turning in place, where no wheel follows another for long) has none. Continuous in the motion, but for
+// circles so tight that wheels stand half a turn apart on them, and for the step from the tightest circle to
+// a turn in place.
+TrackShares tracks_followed(const RoverModel& rover, const Eigen::Vector2d& velocity, double yaw_rate);
 
 // The share of a rut's depth that is still there for the wheel that drives in it.
 //

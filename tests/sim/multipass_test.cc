@@ -60,13 +60,6 @@ TEST(TracksFollowed, WithoutVelocityNoWheelFollowsAnother) {
   expect_near(tracks_followed(six_wheeler(), Eigen::Vector2d::Zero(), 0.03), table(6, {}), 0.0);
 }
 
-TEST(TracksFollowed, AWheelInTheAirLeavesNoneAndTheRearWheelFollowsTheOneBeforeIt) {
-  PerWheel<bool> in_air(6, false);
-  in_air[1] = true;
-  expect_near(tracks_followed(six_wheeler(), {0.04, 0.0}, 0.0, in_air),
-              table(6, {{1, 0, 0.5}, {2, 0, 1.0}, {4, 3, 0.5}, {5, 4, 0.5}, {5, 3, 0.5}}));
-}
-
 TEST(TracksFollowed, InCrabMotionTheTracksLieApart) {
   expect_near(tracks_at(six_wheeler(), 0.04, rad_from_deg(20.0)), table(6, {}), 0.0);
 }

@@ -112,31 +112,6 @@ TEST(FourWheeler, RigidOverAHollowOneWheelHangsAndThreeCarryAll) {
   EXPECT_GT(carried_n(state), 0.98 * rover.mass_kg * kMars);
 }
 
-// The wheel in the air leaves no track, in which the one behind it would meet stiffer soil.
-TEST(FourWheeler, BehindAWheelInTheAirTheGroundIsFresh) {
-  RoverModel rover = four_wheeler(SuspensionType::kRigid);
-  rover.com_m = {-0.05, -0.05, 0.35};
-  const FunctionGround ground([](double x, double y) { return x > 0.4 && y > 0.2 ? -0.2 : 0.0; });
-  const auto stance = settle(rover, ground, {0.0, 0.0, 0.0});
-  ASSERT_TRUE(stance);
-  QuasiStaticSolver solver(rover, kMars);
-  const DriveCommand command{.speed_m_s = 0.04};
-  PerWheel<Soil> soils(4, sandy_loam());
-  const StationState fresh = solver.solve(*stance, soils, command);
-  soils[1].multipass_stiffening = 1.0;
-  const StationState behind_air = solver.solve(*stance, soils, command);
-  ASSERT_TRUE(fresh.moving() && behind_air.moving());
-  ASSERT_TRUE(behind_air.wheels[0].in_air);
-  for (int k = 0; k < 4; ++k)
-    EXPECT_NEAR(behind_air.wheels[k].sinkage_m, fresh.wheels[k].sinkage_m, 1e-9) << k;
-  soils[3].multipass_stiffening = 1.0;
-  const StationState behind_wheel = solver.solve(*stance, soils, command);
-  ASSERT_TRUE(behind_wheel.moving());
-  EXPECT_GT(std::abs(behind_wheel.wheels[3].load_n - fresh.wheels[3].load_n) +
-                1e4 * std::abs(behind_wheel.wheels[3].sinkage_m - fresh.wheels[3].sinkage_m),
-            1.0);
-}
-
 TEST(FourWheeler, RigidOverAShallowHollowAllWheelsCarryAndTheOneInItLess) {
   const RoverModel rover = four_wheeler(SuspensionType::kRigid);
   const FunctionGround ground([](double x, double y) { return x > 0.4 && y > 0.2 ? -0.004 : 0.0; });
