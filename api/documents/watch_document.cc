@@ -38,6 +38,7 @@ std::string watch_document(const gap::DriveWatch& watch) {
   for (const gap::ChangeShare& cause : watch.causes)
     w.begin_object().text("name", cause.name).significant("share", cause.share).end_object();
   w.end_array().text("causes_are", "first_pointer");
+  w.boolean("awaits_another", watch.awaits_another()).texts("notes", watch.notes);
   w.text("answer", watch.diagnosis ? "diagnosis" : "changed");
   if (watch.diagnosis) w.key("diagnosis").raw(diagnosis_document(*watch.diagnosed, *watch.diagnosis));
   w.end_object();

@@ -80,11 +80,11 @@ void write_ladder_table(ReportPage& page, const Diagnosis& d) {
   page.paragraph(
       "How far prediction and measurement are apart (root mean square) on drives that the fit had not seen, "
       "with 90 % intervals. Read each row from left to right, as a ladder:");
-  page.item(d.reference ? "nominal: the rover and soils as the reference has them, before it was learnt from"
+  page.item(d.reference ? "nominal: the model as the reference left it, with the difference that it taught"
                         : "nominal: the model as it was given");
   page.item(d.reference
                 ? "re-tuned: soils and motors as the drives want them, within what the reference left "
-                  "open, and with the difference that the reference taught"
+                  "open. It may predict slightly worse than nominal where there is little to re-tune"
                 : "re-tuned: soils and motors as the drives want them, within what was believed of "
                   "them");
   page.item("with effects: the named effects at work besides; as re-tuned where none is named");

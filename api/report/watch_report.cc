@@ -135,6 +135,11 @@ std::string change_words(const DriveWatch& watch) {
   if (silent == watch.drives.size())
     return "nothing can be said: no drive has a window of use (two rows with position and attitude, on the "
            "terrain)";
+  if (watch.awaits_another())
+    return fmt::format(
+        "at {} the evidence of a change stands above the limit for the first time: another drive, that is no "
+        "repeat, must confirm it before an alarm is raised",
+        watch.drives.back().id);
   if (!watch.alarm)
     return fmt::format("nothing has changed as far as these drives show{}",
                        silent == 0 ? "" : fmt::format(" ({} of them have no window of use)", silent));
@@ -187,6 +192,7 @@ ReportPage watch_report(const gap::DriveCampaign& campaign, const DriveWatch& wa
       "evidence of a change stands at {:g} to 1 at two drives running: while nothing changes, that ever "
       "happens with a probability of at most {:g}.",
       watch.learnt_drives, watch.reference, watch.drives.size(), 1.0 / watch.alpha, watch.alpha));
+  for (const std::string& note : watch.notes) page.item(note + ".");
   page.section("Evidence over the drives");
   add_picture(page, charts, "evidence",
               watch.alarm

@@ -47,7 +47,7 @@ double ChangeDetector::log_ratio(const Eigen::MatrixXd& information, const Eigen
 }
 
 double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
-                           const Eigen::MatrixXd& changes) {
+                           const Eigen::MatrixXd& changes, bool repeats_last) {
   if (drives_.empty()) {
     known_squares_ = Eigen::MatrixXd::Identity(known.cols(), known.cols());
     known_product_ = Eigen::VectorXd::Zero(known.cols());
@@ -95,7 +95,10 @@ double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::Matrix
   std::vector<double> all{std::log(std::max(std::numeric_limits<double>::min(), 1.0 - begun))};
   for (const auto& [c, log] : of_start) all.push_back(log);
   log_evidence_ = log_of_sum(all);
-  above_ = log_evidence_ >= -log_alpha_ ? above_ + 1 : 0;
+  if (log_evidence_ < -log_alpha_)
+    above_ = 0;
+  else if (above_ == 0 || !repeats_last)
+    ++above_;
   for (const auto& [c, log] : of_start)
     if (c + options_.kept < drives && log < log_evidence_ + std::log(options_.forgotten))
       drives_[c].followed = false;

@@ -21,8 +21,8 @@ namespace slipway::gap {
 // reaches 1 / alpha with a probability of alpha at most [Ville 1939; Shafer et al. 2011, Statistical Science
 // 26]. w_c falls as 1 / (c log^2 c), the slowest that adds up.
 struct ChangeOptions {
-  // Drives running at which the evidence stands at 1 / alpha before an alarm: one odd drive is no change. (An
-  // alarm is then rarer still than alpha.)
+  // Drives running, repeats counted once, at which the evidence stands at 1 / alpha before an alarm: one odd
+  // drive is no change. (An alarm is then rarer still than alpha.)
   int confirmed_by = 2;
   double alpha = 0.01;  // chance of an alarm while nothing changes, however long one watches
   double share = 0.5;   // of the log likelihood ratios that is believed: drives scatter more than is modelled
@@ -42,8 +42,9 @@ class ChangeDetector {
   ChangeDetector(ChangeOptions options, std::vector<ChangeKind> kinds);
 
   // One more drive, whitened: residuals, what may be re-tuned, and the kinds' columns. Returns log M, which
-  // stays 0 where there is no kind of change.
-  double add(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known, const Eigen::MatrixXd& changes);
+  // stays 0 where there is no kind of change. A repeat of the drive before it does not confirm that one.
+  double add(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known, const Eigen::MatrixXd& changes,
+             bool repeats_last = false);
 
   bool alarmed() const { return above_ >= options_.confirmed_by; }
   double log_evidence() const { return log_evidence_; }

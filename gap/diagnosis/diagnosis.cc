@@ -23,6 +23,8 @@
 #include "gap/diagnosis/held_out/gap_closure.h"
 #include "gap/diagnosis/held_out/ladder_rung.h"
 #include "gap/diagnosis/model/outside_cause.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
+#include "gap/diagnosis/model/reference_belief.h"
 #include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/search/effect_trace.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
@@ -118,6 +120,16 @@ class Diagnoser {
       d_.notes.push_back(
           "no drive is said to be a repeat: the drives' own scatter is estimated from drives of different "
           "kinds");
+  }
+
+  // Of these drives, and of the reference's.
+  std::vector<std::string> implausible_readings() const {
+    std::vector<std::string> notes = notes_of_implausible_readings(campaign_);
+    if (campaign_.reference) {
+      const std::vector<std::string>& before = campaign_.reference->implausible;
+      notes.insert(notes.end(), before.begin(), before.end());
+    }
+    return notes;
   }
 
   // Whether drives of use are in more than one fold.
@@ -320,6 +332,7 @@ class Diagnoser {
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
+    doubt_readings(implausible_readings(), options_.verdict, d_);
     add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds, options_.fit),
                          fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};

@@ -195,6 +195,18 @@ bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
   });
 }
 
+// Something unknown gets VerdictOptions::min_doubt of the probability, where it was compared and has less.
+void raise_unknown(const VerdictOptions& options, Diagnosis& d) {
+  const double unknown = unknown_probability(d);
+  if (unknown > 0.0 && unknown < options.min_doubt)
+    for (ComparedSet& c : d.candidates)
+      c.probability *=
+          c.with_unknown ? options.min_doubt / unknown : (1.0 - options.min_doubt) / (1.0 - unknown);
+  std::stable_sort(d.candidates.begin(), d.candidates.end(),
+                   [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
+  take_marginals_anew(d);
+}
+
 // What is held against an answer, and whether its names stand all the same.
 struct Doubt {
   std::string why;
@@ -285,13 +297,7 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
   const std::optional<Doubt> doubt = doubt_of(answer, options, d);
   if (!doubt) return;
   // Names that stand keep their probability where the doubt is one of belief.
-  if (unknown < options.min_doubt && (doubt->of_a_gap || !doubt->names_stand))
-    for (ComparedSet& c : d.candidates)
-      c.probability *=
-          c.with_unknown ? options.min_doubt / unknown : (1.0 - options.min_doubt) / (1.0 - unknown);
-  std::stable_sort(d.candidates.begin(), d.candidates.end(),
-                   [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
-  take_marginals_anew(d);
+  if (doubt->of_a_gap || !doubt->names_stand) raise_unknown(options, d);
   const std::vector<std::string> names = named(d);
   if (doubt->names_stand) {
     d.partial = true;
@@ -313,6 +319,20 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
                                          : "nothing in the library explains these drives believably",
                          doubt->why);
   d.overturned_by = kSameLook;
+}
+
+void doubt_readings(std::span<const std::string> implausible, const VerdictOptions& options, Diagnosis& d) {
+  if (implausible.empty()) return;
+  d.model.reset();
+  d.model_effects.clear();
+  d.left_open = {};
+  if (d.verdict != Verdict::kNoGap && d.verdict != Verdict::kNotDetected && d.verdict != Verdict::kParameters)
+    return;
+  raise_unknown(options, d);
+  d.least_detectable.clear();
+  d.verdict = Verdict::kUnknown;
+  d.reason = implausible.front();
+  d.overturned_by = "readings in the units that the campaign states";
 }
 
 }  // namespace slipway::gap

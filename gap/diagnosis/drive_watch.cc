@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/parallel_for.h"
+#include "gap/diagnosis/model/drive_resampling.h"
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "gap/diagnosis/search/explanation_search.h"
 
@@ -131,11 +132,12 @@ Result<void> follow(const DriveCampaign& campaign, const WatchOptions& options,
   const Changes changes = changes_of(campaign, prepared, fit, diagnosis);
   ChangeDetector detector(options.change, changes.kinds);
   const auto rows = rows_of_drives(prepared, campaign.drives.size());
+  const std::vector<std::size_t> groups = repeat_groups(campaign);
   for (std::size_t d = 0; d < campaign.drives.size() && !progress.cancelled(); ++d) {
     const auto [first, count, windows] = rows[d];
     const double log_evidence =
         detector.add(fit.white_linear.segment(first, count), fit.white_jacobian.middleRows(first, count),
-                     changes.columns.middleRows(first, count));
+                     changes.columns.middleRows(first, count), d > 0 && groups[d] == groups[d - 1]);
     if (!watch.alarm && detector.alarmed()) {
       watch.alarm = d;
       watch.since = detector.most_probable_start();
@@ -180,6 +182,7 @@ Result<DriveWatch> watch_drives(const DriveCampaign& campaign, const DriveCampai
   result.reference_fingerprint = healthy.fingerprint;
   result.learnt_drives = healthy.drives.size();
   result.alpha = watch.change.alpha;
+  result.notes = since->notes;
   if (const auto followed = follow(*since, watch, options, progress, result); !followed)
     return fail(followed.error());
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the watch was cancelled");

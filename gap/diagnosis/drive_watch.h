@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,11 @@ struct DriveWatch {
   std::size_t learnt_drives = 0;
   double alpha = 0.0;
   std::vector<WatchedDrive> drives;
+  std::vector<std::string> notes;  // of the drives, and of what was taken from the reference
+  // Whether the evidence stands at 1 / alpha at the last drive alone, which another must confirm.
+  bool awaits_another() const {
+    return !alarm && !drives.empty() && drives.back().log10_evidence >= -std::log10(alpha);
+  }
   // Drives without a window of use.
   std::size_t silent_drives() const {
     return static_cast<std::size_t>(

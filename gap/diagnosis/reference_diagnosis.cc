@@ -132,6 +132,7 @@ Result<DriveCampaign> since_reference(const LearntReference& learnt, const Drive
   adopt_nominal(reference, since);
   note_same_rows(reference, since);
   since.reference = belief_for(learnt, since, options.reference);
+  for (const std::string& note : since.reference->implausible) since.notes.push_back(note);
   return since;
 }
 

@@ -52,6 +52,21 @@ TEST(StartWeight, AddsUpToOneAtMost) {
   EXPECT_LT(sum, 1.0);
 }
 
+// An odd drive was confirmed by its own repeat.
+TEST(ChangeDetector, IsNotConfirmedByARepeatOfTheSameDrive) {
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(kRetuned);
+  for (const bool repeats : {false, true}) {
+    ChangeDetector detector({}, kMadeKinds);
+    int alarm = -1;
+    for (int d = 0; d < 6 && alarm < 0; ++d) {
+      const ChangedDrive made = changed_drive(5, d, u, 20.0);
+      detector.add(made.residuals, made.known, made.changes, repeats && d < 5 && d > 0);
+      if (detector.alarmed()) alarm = d;
+    }
+    EXPECT_EQ(alarm, repeats ? 5 : 1);
+  }
+}
+
 // Drives off the map had no column of any kind, and the watch died of it.
 TEST(ChangeDetector, HasNoEvidenceWhereNothingCouldShow) {
   ChangeDetector detector({}, {});

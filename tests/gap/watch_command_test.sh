@@ -88,6 +88,35 @@ status=0
 status=0
 "$slipway" watch "$folder/healthy/s01" --reference "$folder/off" --data "$data" >"$folder/words" 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && grep -q 'have no window of use' "$folder/err"
+# Currents in mA: that nothing is missing can't be said, though drives could be taken to scatter by as much.
+cp -r "$folder/healthy/s01" "$folder/ma"
+python3 - "$folder/ma" <<'MA'
+import csv, json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+for drive in json.loads((folder / "campaign.json").read_text())["drives"]:
+    path = folder / drive["file"]
+    rows = list(csv.DictReader(path.read_text().splitlines()))
+    for row in rows:
+        for column in row:
+            if column.endswith("_current_a") and row[column]:
+                row[column] = str(1000 * float(row[column]))
+    with path.open("w", newline="") as out:
+        writer = csv.DictWriter(out, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+MA
+for pair in "ma healthy/references/s01" "healthy/s01 ma"; do
+  set -- $pair
+  "$slipway" diagnose "$folder/$1" --reference "$folder/$2" --data "$data" --json >"$folder/units.json"
+  python3 - "$folder/units.json" <<'UNITS'
+import json, sys
+said = json.load(open(sys.argv[1]))
+assert said["verdict"] not in ("no_gap", "not_detected", "parameters") and "model" not in said, said["verdict"]
+assert any("half of the currents are beyond" in note for note in said["notes"]), said["notes"]
+UNITS
+  "$slipway" watch "$folder/$1" --reference "$folder/$2" --data "$data" --no-diagnosis >"$folder/words" || [ $? = 6 ]
+  grep -q '^note: .*half of the currents are beyond' "$folder/words"
+done
 # Repeats of one drive can't be held out of a fit, so that no name can be checked.
 cp -r "$folder/set/s01" "$folder/one"
 python3 - "$folder/one" <<'ONE'

@@ -53,8 +53,9 @@ class AppendedReader {
     const std::size_t index = campaign_.drives.size() - 1;
     if (object.text("id", json::kRequired, {}, drive.id))
       if (const auto [first, is_new] = first_with_.emplace(drive.id, index); !is_new)
-        object.fault(
-            "id", fmt::format("id = {} is that of /drives/{} as well", in_quotes(drive.id), first->second));
+        object.fault("id",
+                     fmt::format("id = {} is that of drive {} of the watch as well, counted from its first",
+                                 in_quotes(drive.id), first->second + 1));
     json::read_drive_facts(object, campaign_.rover.get(), terrains_, drive);
     std::string csv;
     if (object.text("csv", json::kRequired, {.most = kMaxCsvBytes}, csv)) read_rows(object, csv, drive);

@@ -2679,6 +2679,10 @@ export interface components {
              * @constant
              */
             causes_are?: "first_pointer";
+            /** @description Without an alarm: whether the evidence stands at 1 / alpha at the last drive alone, so that another drive, which is no repeat, would confirm it */
+            awaits_another?: boolean;
+            /** @description What was found in reading the drives, one sentence each */
+            notes?: string[];
             /**
              * @description The key that counts: `diagnosis` where one was made, which may differ from `causes`
              * @enum {string}

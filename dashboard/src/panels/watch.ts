@@ -35,7 +35,9 @@ export function watchView(target: HTMLElement): void {
       h("h2", {}, `Watch over ${words(w.campaign)}`),
       w.alarm
         ? h("p", { class: "banner small no_go", "data-alarm": w.alarm.drive, role: "status" }, `ALARM at drive ${w.alarm.drive}`, h("small", {}, `most probably since ${w.alarm.since}: ${w.alarm.delay_drives} drives`))
-        : h("p", { class: "banner small unknown", "data-alarm": "", role: "status" }, "no alarm", h("small", {}, w.drives.some((d) => d.windows !== 0) ? "nothing has changed as far as these drives show" : "nothing can be said: no drive has a window of use")),
+        : h("p", { class: "banner small unknown", "data-alarm": "", role: "status" }, "no alarm", h("small", {}, !w.drives.some((d) => d.windows !== 0)
+          ? "nothing can be said: no drive has a window of use"
+          : w.awaits_another ? "the evidence stands above the limit at the last drive: another must confirm it" : "nothing has changed as far as these drives show")),
       h("p", {}, `${w.drives.length} drives against ${w.reference.drives} healthy ones of ${words(w.reference.campaign)}; evidence 10^${number(last?.log10_evidence, 2)} at the last. A false alarm has a probability of ${share(w.alpha)}, however long one watches.`),
       h("h3", {}, w.alarm ? "Shares of the evidence at the alarm" : "Shares of the evidence at the last drive"),
       h("ul", {}, w.causes.filter((c, i) => i === 0 || c.share > 0.01).slice(0, 5).map((c) => h("li", {}, `${words(c.name)} ${share(c.share)}`))),

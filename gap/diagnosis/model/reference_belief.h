@@ -19,6 +19,7 @@ namespace slipway::gap {
 struct ReferenceBelief {
   std::string campaign, fingerprint;
   std::size_t drives = 0, windows = 0;
+  std::vector<std::string> implausible;  // notes of its readings (reading_plausibility.h)
 
   std::vector<std::string> names;  // of all nuisances of the campaign that asks, in Hypothesis' order
   Eigen::VectorXd mean;            // x

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gap/diagnosis/model/difference_columns.h"
+#include "gap/diagnosis/model/reading_plausibility.h"
 
 namespace slipway::gap {
 namespace {
@@ -237,6 +238,8 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
   belief->fingerprint = reference.fingerprint;
   belief->drives = reference.drives.size();
   belief->windows = learnt.prepared.used_windows();
+  for (const std::string& note : notes_of_implausible_readings(reference))
+    belief->implausible.push_back("of the healthy drives " + note);
   const Hypothesis hypothesis(campaign, {});
   const std::vector<std::string> asked = names_with_soils(hypothesis, campaign);
   const auto count = static_cast<Eigen::Index>(asked.size()), coefficients = learnt.coefficients.size();

@@ -45,7 +45,9 @@ std::string watch_words(const gap::DriveWatch& watch) {
     table.add({watch.drives[d].id, fmt::format("{:.2f}", watch.drives[d].log10_evidence),
                d < watch.onset_shares.size() ? fmt::format("{:.2f}", watch.onset_shares[d]) : "", mark});
   }
-  out += table.print() + api::change_words(watch) + "\n";
+  out += table.print();
+  for (const std::string& note : watch.notes) out += fmt::format("note: {}\n", note);
+  out += api::change_words(watch) + "\n";
   if (!watch.alarm) return out;
   out += fmt::format("{}\n{}\n", api::first_pointer_words(watch), api::deciding_words(watch));
   return watch.diagnosis ? out + diagnosis_words(watch) : out;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "api/json/lookup.h"
@@ -324,10 +325,14 @@ Result<std::string> wheel_table(std::string_view answer) {
 
 std::string error_text(const Error& error) {
   const ErrorRow& row = error_row(error.code);
+  constexpr std::size_t kListed = 30;
   std::string out = fmt::format("{}: {}\n", row.name, error.detail);
-  for (const Fault& fault : error.faults)
+  const std::size_t listed = std::min(kListed, error.faults.size());
+  for (const Fault& fault : std::span(error.faults).first(listed))
     out +=
         fmt::format("  {}: {}\n", fault.pointer.empty() ? "(the whole input)" : fault.pointer, fault.message);
+  if (listed < error.faults.size())
+    out += fmt::format("  and {} more faults\n", error.faults.size() - listed);
   return out + fmt::format("{}\n", row.help);
 }
 
