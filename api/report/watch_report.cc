@@ -137,8 +137,9 @@ std::string change_words(const DriveWatch& watch) {
            "terrain)";
   if (watch.awaits_another())
     return fmt::format(
-        "at {} the evidence of a change stands above the limit for the first time: another drive, that is no "
-        "repeat, must confirm it before an alarm is raised",
+        "at {} the evidence of a change stands above the limit: another drive, that is no repeat, must "
+        "confirm "
+        "it before an alarm is raised",
         watch.drives.back().id);
   if (!watch.alarm)
     return fmt::format("nothing has changed as far as these drives show{}",

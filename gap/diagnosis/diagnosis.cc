@@ -156,9 +156,8 @@ class Diagnoser {
     d_.verdict = Verdict::kInsufficient;
     if (enough) {
       d_.reason =
-          "there is one drive of use, or repeats of one: without another none can be held out of a fit, and "
-          "no "
-          "name can be checked";
+          "there is one drive of use, or repeats of one: none can be held out of a fit, so that no name can "
+          "be checked";
       d_.overturned_by = "another drive, that is no repeat";
       return true;
     }
@@ -331,8 +330,9 @@ class Diagnoser {
     if (explains()) d_.closed_fraction = closure->closed_fraction;
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
-    doubt_readings(implausible_readings(), options_.verdict, d_);
+    const std::vector<std::string> implausible = implausible_readings();
+    doubt_readings(implausible, options_.verdict, d_);
+    if (implausible.empty()) offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
     add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds, options_.fit),
                          fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};

@@ -323,9 +323,6 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
 
 void doubt_readings(std::span<const std::string> implausible, const VerdictOptions& options, Diagnosis& d) {
   if (implausible.empty()) return;
-  d.model.reset();
-  d.model_effects.clear();
-  d.left_open = {};
   if (d.verdict != Verdict::kNoGap && d.verdict != Verdict::kNotDetected && d.verdict != Verdict::kParameters)
     return;
   raise_unknown(options, d);

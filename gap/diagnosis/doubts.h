@@ -64,9 +64,8 @@ std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBel
 // other sets were alike. In case 4 no name stands. d has its `gap`.
 void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
 
-// Where readings are implausible, as these notes say (reading_plausibility.h), no model is offered, and that
-// nothing is missing is taken back to `unknown`: currents in mA agree with any model once they are taken to
-// scatter by as much.
+// Where readings are implausible, as these notes say (reading_plausibility.h), that nothing is missing is
+// taken back to `unknown`: currents in mA agree with any model once they are taken to scatter by as much.
 void doubt_readings(std::span<const std::string> implausible, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

@@ -267,21 +267,16 @@ TEST(Verdict, ThatNothingIsMissingIsUnknownWhereReadingsAreHardlyToBeBelieved) {
   const std::vector<std::string> notes{"half of the currents are beyond 257 A"};
   for (const Verdict verdict : {Verdict::kNoGap, Verdict::kNotDetected, Verdict::kParameters}) {
     Diagnosis d = answer_with(verdict, 1.0);
-    d.model.emplace();
     doubt_readings({}, VerdictOptions{}, d);
     EXPECT_EQ(d.verdict, verdict);
-    EXPECT_TRUE(d.model);
     doubt_readings(notes, VerdictOptions{}, d);
     EXPECT_EQ(d.verdict, Verdict::kUnknown);
     EXPECT_EQ(d.reason, notes.front());
-    EXPECT_FALSE(d.model);
     EXPECT_TRUE(d.candidates.front().with_unknown);
   }
   Diagnosis named = answer_with(Verdict::kEffects, 1.0);
-  named.model.emplace();
   doubt_readings(notes, VerdictOptions{}, named);
   EXPECT_EQ(named.verdict, Verdict::kEffects) << "a gap that has a name is a gap all the same";
-  EXPECT_FALSE(named.model);
 }
 
 TEST(Verdict, IsInDoubtWhereHarshDrivesArePredictedWorseThanByChance) {
