@@ -327,6 +327,8 @@ RoverBalance::Motions RoverBalance::slopes_by_tracks(const Vector& unknowns, con
                                                      Matrix& jacobian) const {
   constexpr double kStep = 1e-7;
   Motions by_motions = Motions::Zero();
+  PerWheel<double> depth;
+  if (geometry_.undetermined > 0) depth = total_sinkages_m(unknowns);
   for (int motion = 0; motion < kMotions; ++motion) {
     Vector moved = unknowns;
     moved[motion] += kStep;
@@ -336,7 +338,7 @@ RoverBalance::Motions RoverBalance::slopes_by_tracks(const Vector& unknowns, con
       if (!in_air_[k])
         by_motions.col(motion).noalias() += place(k).effect * slopes.by_share[k] * share_slope[k];
     if (geometry_.undetermined == 0) continue;
-    const PerWheel<double> depth = total_sinkages_m(unknowns), there = total_sinkages_m(unknowns, tracks);
+    const PerWheel<double> there = total_sinkages_m(unknowns, tracks);
     auto rows = jacobian.col(motion).segment(equilibrium_count(), compatibility_of_depth_.rows());
     for (int k = 0; k < wheel_count(); ++k)
       rows += compatibility_of_depth_.col(k) * ((there[k] - depth[k]) / kStep);

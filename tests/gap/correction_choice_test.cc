@@ -29,27 +29,32 @@ ExplanationSearch search_of(const DriveCampaign& campaign) {
   return search;
 }
 
-TEST(CorrectionChoice, GivesResamplesWhatTheyWouldHaveChosen) {
-  DriveCampaign campaign;
-  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
-  campaign.soils.resize(1);
-  const ExplanationSearch search = search_of(campaign);
-  const PreparedCampaign prepared;
-  const SelectionBootstrap selection{.chosen = {0, 1, 2, 3, 4, 1}, .share = {0.5, 0.3, 0.1, 0.09, 0.01}};
-  const CorrectionChoice choice = choose_corrections(prepared, search, selection, 0, 0, DiagnosisOptions{});
+class ChosenCorrections : public ::testing::Test {
+ protected:
+  ChosenCorrections() {
+    campaign_.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
+    campaign_.soils.resize(1);
+    search_ = search_of(campaign_);
+  }
+  CorrectionChoice chosen(const SelectionBootstrap& selection, std::size_t most_believed) const {
+    return choose_corrections(prepared_, search_, selection, 0, most_believed, options_);
+  }
+  DriveCampaign campaign_;
+  ExplanationSearch search_;
+  PreparedCampaign prepared_;
+  DiagnosisOptions options_;
+};
+
+TEST_F(ChosenCorrections, GiveResamplesWhatTheyWouldHaveChosen) {
+  const CorrectionChoice choice =
+      chosen({.chosen = {0, 1, 2, 3, 4, 1}, .share = {0.5, 0.3, 0.1, 0.09, 0.01}}, 0);
   // {a}; then {b}, and twice none. So rare a choice as {c} counts as {a}.
   EXPECT_EQ(choice.corrections.size(), 4U);
   EXPECT_EQ(choice.of_resample, (std::vector<std::size_t>{0, 1, 2, 3, 0, 1}));
 }
 
-TEST(CorrectionChoice, GivesWhatWasMostBelievedTheNamesThatWereTakenFromIt) {
-  DriveCampaign campaign;
-  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
-  campaign.soils.resize(1);
-  const ExplanationSearch search = search_of(campaign);
-  const PreparedCampaign prepared;
-  const SelectionBootstrap selection{.chosen = {1, 0, 1}, .share = {0.3, 0.7, 0.0, 0.0, 0.0}};
-  const CorrectionChoice choice = choose_corrections(prepared, search, selection, 0, 1, DiagnosisOptions{});
+TEST_F(ChosenCorrections, GiveWhatWasMostBelievedTheNamesThatWereTakenFromIt) {
+  const CorrectionChoice choice = chosen({.chosen = {1, 0, 1}, .share = {0.3, 0.7, 0.0, 0.0, 0.0}}, 1);
   EXPECT_EQ(choice.corrections.size(), 1U);
   EXPECT_EQ(choice.of_resample, (std::vector<std::size_t>{0, 0, 0}));
 }

@@ -67,21 +67,27 @@ assert named > 0.3, diagnosis["candidates"]
 since = json.loads((folder / "since" / "diagnosis.json").read_text())
 assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
 CHECK
-# Drives off the map say nothing, and are no answer: the watch died of them once.
-cp -r "$folder/healthy/s01" "$folder/off"
-python3 - "$folder/off" <<'OFF'
+# changed_copy COPY ENDING FACTOR OFFSET: healthy drives whose columns of this ending read FACTOR times as much and OFFSET more.
+changed_copy() {
+  cp -r "$folder/healthy/s01" "$folder/$1"
+  python3 - "$folder/$1" "$2" "$3" "$4" <<'COPY'
 import csv, json, pathlib, sys
-folder = pathlib.Path(sys.argv[1])
+folder, ending, factor, offset = pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3]), float(sys.argv[4])
 for drive in json.loads((folder / "campaign.json").read_text())["drives"]:
     path = folder / drive["file"]
     rows = list(csv.DictReader(path.read_text().splitlines()))
     for row in rows:
-        row["x_m"] = str(float(row["x_m"]) + 1e5)
+        for column in row:
+            if column.endswith(ending) and row[column]:
+                row[column] = str(factor * float(row[column]) + offset)
     with path.open("w", newline="") as out:
         writer = csv.DictWriter(out, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-OFF
+COPY
+}
+# Drives off the map say nothing, and are no answer: the watch died of them once.
+changed_copy off x_m 1 1e5
 status=0
 "$slipway" watch "$folder/off" --reference "$folder/healthy/references/s01" --data "$data" >"$folder/words" || status=$?
 [ "$status" = 1 ] && grep -q 'nothing can be said: no drive has a window of use' "$folder/words"
@@ -89,22 +95,7 @@ status=0
 "$slipway" watch "$folder/healthy/s01" --reference "$folder/off" --data "$data" >"$folder/words" 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && grep -q 'have no window of use' "$folder/err"
 # Currents in mA: that nothing is missing can't be said, though drives could be taken to scatter by as much.
-cp -r "$folder/healthy/s01" "$folder/ma"
-python3 - "$folder/ma" <<'MA'
-import csv, json, pathlib, sys
-folder = pathlib.Path(sys.argv[1])
-for drive in json.loads((folder / "campaign.json").read_text())["drives"]:
-    path = folder / drive["file"]
-    rows = list(csv.DictReader(path.read_text().splitlines()))
-    for row in rows:
-        for column in row:
-            if column.endswith("_current_a") and row[column]:
-                row[column] = str(1000 * float(row[column]))
-    with path.open("w", newline="") as out:
-        writer = csv.DictWriter(out, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
-MA
+changed_copy ma _current_a 1000 0
 for pair in "ma healthy/references/s01" "healthy/s01 ma"; do
   set -- $pair
   "$slipway" diagnose "$folder/$1" --reference "$folder/$2" --data "$data" --json >"$folder/units.json"
