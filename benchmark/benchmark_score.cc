@@ -19,10 +19,6 @@ const std::string kUnknownName = "unknown";
 constexpr double kSmallAngle_deg = 25.0, kConfident = 0.9, kHeld = 0.95;
 constexpr std::size_t kMaxHeld = 3;
 
-bool names_nothing(Verdict v) {
-  return v == Verdict::kNoGap || v == Verdict::kNotDetected || v == Verdict::kParameters;
-}
-
 // The sets of effects that were compared, each once, with the most probable first.
 std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
   std::vector<std::pair<Names, double>> sets;
@@ -113,7 +109,7 @@ void score_verdict(CaseScore& score, const Diagnosis& d, const Names& truth, con
     case TruthKind::kParameters:
       // A small shift of parameters leaves no gap, and a large one is reported as parameters. Neither is an
       // alarm.
-      score.verdict_right = names_nothing(d.verdict);
+      score.verdict_right = finds_nothing_missing(d.verdict);
       score.exact = score.verdict_right;
       break;
     case TruthKind::kEffects:
@@ -147,7 +143,7 @@ void score_probabilities(CaseScore& score, const Diagnosis& d, const Names& trut
   const bool second = sets.size() > 1 && sets[1].first == truth;
   score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
                 (names_effects(d.verdict) && second && exchanged(d, found, truth)) ||
-                (names_nothing(d.verdict) && all_like_parameters(d, truth));
+                (finds_nothing_missing(d.verdict) && all_like_parameters(d, truth));
   for (const FoundEffect& effect : d.effects)
     score.confident_wrong =
         score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
@@ -222,7 +218,8 @@ WithheldScore score_withheld(const HiddenAnswer& answer, const std::string& with
   // A partial answer names the others that are hidden, if any, and says that something is beside them.
   score.unknown = d.verdict == Verdict::kUnknown ||
                   (d.partial && std::includes(others.begin(), others.end(), named.begin(), named.end()));
-  score.absorbed = names_nothing(d.verdict) || (names_effects(d.verdict) && !d.partial && named == others);
+  score.absorbed =
+      finds_nothing_missing(d.verdict) || (names_effects(d.verdict) && !d.partial && named == others);
   score.look_alike = names_effects(d.verdict) && exchanged(open, found, answer.effects);
   score.declared = score.absorbed && all_like_parameters(open, {withheld});
   return score;

@@ -322,9 +322,7 @@ void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, D
 }
 
 void doubt_readings(std::span<const std::string> implausible, const VerdictOptions& options, Diagnosis& d) {
-  if (implausible.empty()) return;
-  if (d.verdict != Verdict::kNoGap && d.verdict != Verdict::kNotDetected && d.verdict != Verdict::kParameters)
-    return;
+  if (implausible.empty() || !finds_nothing_missing(d.verdict)) return;
   raise_unknown(options, d);
   d.least_detectable.clear();
   d.verdict = Verdict::kUnknown;

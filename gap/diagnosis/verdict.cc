@@ -173,7 +173,7 @@ void judge_effects(const ExplanationSearch& search, const Naming& naming, double
       probability >= options.selection.certain && !alike(rival, probability, options.verdict);
   d.verdict = certain ? Verdict::kEffects : Verdict::kEffectSet;
   d.reason =
-      fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
+      fmt::format("{} explain{} what re-tuned parameters leave over (probability of this explanation {:.2f})",
                   fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
   if (rival != nullptr) d.overturned_by = next_best(*rival);
 }

@@ -43,7 +43,7 @@ std::string names_words(const std::vector<std::string>& names) {
 std::string effects_words(const Diagnosis& d) {
   std::string out;
   for (const gap::FoundEffect& found : d.effects) {
-    out += fmt::format("  {}{}, probability {:.2f}", found.name,
+    out += fmt::format("  {}{}, probability {:.2f} over all explanations", found.name,
                        found.variant.empty() ? "" : fmt::format(" ({})", found.variant), found.probability);
     for (const gap::FoundParameter& p : found.parameters)
       out += fmt::format(", {} = {}", p.name, interval_words(p.value));

@@ -65,6 +65,17 @@ TEST(WrenchOf, APullAgainstTheTravelHoldsBackEitherWay) {
               -20.0, 1e-12);
 }
 
+TEST(WrenchOf, APushToTheSideAheadOfTheCentreOfMassTurnsTheRoverAsItIsPushed) {
+  const sim::RoverModel rover = sim::six_wheeler();
+  OutsideForces forces;
+  forces.in_body_n = {-10.0, 25.0};
+  const sim::OutsideWrench at_mass = wrench_of(forces, rover, level(0.3), {.speed_m_s = 0.04});
+  forces.ahead_m = 0.2;
+  const sim::OutsideWrench ahead = wrench_of(forces, rover, level(0.3), {.speed_m_s = 0.04});
+  EXPECT_NEAR((ahead.moment_nm - at_mass.moment_nm - Eigen::Vector3d(0.0, 0.0, 5.0)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(ahead.force_n, at_mass.force_n);
+}
+
 TEST(WrenchOf, APushOnTheMapKeepsItsDirectionThereAndALoadIsUpright) {
   const sim::RoverModel rover = sim::six_wheeler();
   OutsideForces forces;
@@ -99,6 +110,19 @@ sim::EffectVariant first_variant(std::string_view cause, const DriveCampaign& ca
   sim::EffectVariant variant = find_outside(cause)->variants(campaign).front();
   variant.effect = cause;
   return variant;
+}
+
+// A place was missing once, and pushes ahead of the centre of mass were told as a wrong inclinometer.
+TEST(Hypothesis, APushHasAPlaceOnTheBody) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  for (const char* cause : {"push_in_body", "push_on_map"}) {
+    const Hypothesis hypothesis(campaign, {first_variant(cause, campaign)});
+    std::vector<double> x = hypothesis.neutral();
+    x[x.size() - 2] = 0.35;
+    x.back() = 0.1;
+    EXPECT_EQ(hypothesis.state(x).outside.height_m, 0.35) << cause;
+    EXPECT_EQ(hypothesis.state(x).outside.ahead_m, 0.1) << cause;
+  }
 }
 
 TEST(Hypothesis, ARimThatSlipsOnItsHubTurnsSlowerThanItsWheelIsMeasuredTo) {

@@ -79,7 +79,7 @@ sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel&
       (forces.along_n + forces.along_by_speed_n * speed) * travel +
       Eigen::Vector3d(forces.in_body_n.x() + forces.along_by_slope_n * climb, forces.in_body_n.y(), 0.0) +
       stance.R_MB.transpose() * Eigen::Vector3d(forces.on_map_n.x(), forces.on_map_n.y(), -forces.load_n);
-  const Eigen::Vector3d at = rover.com_m + forces.height_m * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d at = rover.com_m + Eigen::Vector3d(forces.ahead_m, 0.0, forces.height_m);
   wrench.moment_nm = at.cross(wrench.force_n) + forces.turning_nm * Eigen::Vector3d::UnitZ();
   if (forces.along_at_wheel_n.empty()) return wrench;
   wrench.at_wheel_n = sim::PerWheel<Eigen::Vector3d>(rover.wheels.size(), Eigen::Vector3d::Zero());

@@ -28,8 +28,9 @@ struct OutsideForces {
   Eigen::Vector2d in_body_n = Eigen::Vector2d::Zero();  // forward and to the left
   Eigen::Vector2d on_map_n = Eigen::Vector2d::Zero();   // towards the map's x and y
   double load_n = 0.0;                                  // downward
-  double height_m = 0.0;    // above the centre of mass, of the point where these act on the body
-  double turning_nm = 0.0;  // about the body's z axis
+  // Of the point where these act on the body, from the centre of mass.
+  double height_m = 0.0, ahead_m = 0.0;
+  double turning_nm = 0.0;                         // about the body's z axis
   std::map<std::size_t, double> along_at_wheel_n;  // by the wheel's index
 
   bool any() const;
@@ -58,7 +59,8 @@ struct HeadingError {
   bool operator==(const HeadingError&) const = default;
 };
 
-// Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
+// Forces on the body act in the plane through its centre of mass that parts left from right, those at wheels
+// at the axles.
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command);
 

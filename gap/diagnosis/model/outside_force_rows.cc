@@ -24,20 +24,28 @@ double weight_n(const DriveCampaign& campaign) {
   return campaign.rover->mass_kg * campaign.gravity_m_s2;
 }
 
-// Where on the body a force acts: at the ground or well above the deck.
+// Where on the body a force acts: at the ground or well above the deck, and ahead of the centre of mass.
 constexpr const char* kHeight = "height_m";
+constexpr const char* kAhead = "ahead_m";
 
-// One way, with these fields free, each of one deviation: a share of the weight; and the height.
-template <const auto& Fields>
+Free place(const char* field) {
+  return {.field = field, .std = 0.15, .lowest = -0.6, .highest = 0.6};
+}
+
+// One way, with these fields free, each of one deviation: a share of the weight; and the place.
+template <const auto& Fields, const auto& Places>
 std::vector<sim::EffectVariant> forces(const DriveCampaign& campaign) {
   std::vector<Free> free;
   for (const char* field : Fields) free.push_back(outside_number(field, kForceShare * weight_n(campaign)));
-  free.push_back({.field = kHeight, .std = 0.15, .lowest = -0.6, .highest = 0.6});
+  for (const char* field : Places) free.push_back(place(field));
   return {outside_variant(std::move(free))};
 }
 constexpr std::array kForce{"force_n"};
 constexpr std::array kForwardLeft{"forward_n", "left_n"};
 constexpr std::array kMapXY{"x_n", "y_n"};
+constexpr std::array kUp{kHeight};
+// A push to the side turns the rover where it does not act at the centre of mass.
+constexpr std::array kUpAndAhead{kHeight, kAhead};
 
 std::vector<sim::EffectVariant> load(const DriveCampaign& campaign) {
   return {outside_variant({outside_number("force_n", kLoadShare * weight_n(campaign))})};
@@ -138,7 +146,7 @@ constexpr std::array kForceRows{
                  .entry = "tangential_force",
                  .depends = "direction",
                  .unit = "N",
-                 .variants = &forces<kForce>,
+                 .variants = &forces<kForce, kUp>,
                  .act =
                      [](const Values& v, ModelState& s) {
                        s.outside.along_n += v.at("force_n");
@@ -150,11 +158,12 @@ constexpr std::array kForceRows{
                  .entry = "tangential_force",
                  .depends = "heading",
                  .unit = "N",
-                 .variants = &forces<kMapXY>,
+                 .variants = &forces<kMapXY, kUpAndAhead>,
                  .act =
                      [](const Values& v, ModelState& s) {
                        s.outside.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n"));
                        s.outside.height_m = v.at(kHeight);
+                       s.outside.ahead_m = v.at(kAhead);
                      },
                  .words = &push_words},
     OutsideCause{.name = "push_in_body",
@@ -162,11 +171,12 @@ constexpr std::array kForceRows{
                  .entry = "lateral_force",
                  .depends = "constant",
                  .unit = "N",
-                 .variants = &forces<kForwardLeft>,
+                 .variants = &forces<kForwardLeft, kUpAndAhead>,
                  .act =
                      [](const Values& v, ModelState& s) {
                        s.outside.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n"));
                        s.outside.height_m = v.at(kHeight);
+                       s.outside.ahead_m = v.at(kAhead);
                      },
                  .words = &body_words,
                  .twin_of_an_effect = true},
@@ -175,7 +185,7 @@ constexpr std::array kForceRows{
                  .entry = "tangential_force",
                  .depends = "speed",
                  .unit = "N",
-                 .variants = &forces<kForce>,
+                 .variants = &forces<kForce, kUp>,
                  .act =
                      [](const Values& v, ModelState& s) {
                        s.outside.along_by_speed_n += v.at("force_n");
@@ -187,7 +197,7 @@ constexpr std::array kForceRows{
                  .entry = "tangential_force",
                  .depends = "pitch",
                  .unit = "N",
-                 .variants = &forces<kForce>,
+                 .variants = &forces<kForce, kUp>,
                  .act =
                      [](const Values& v, ModelState& s) {
                        s.outside.along_by_slope_n += v.at("force_n");

@@ -27,6 +27,10 @@ std::string_view name_of(Verdict verdict);  // "no_gap", ...
 inline bool names_effects(Verdict verdict) {
   return verdict == Verdict::kEffects || verdict == Verdict::kEffectSet;
 }
+// Whether it says that nothing is missing from the model, or nothing that these drives show.
+inline bool finds_nothing_missing(Verdict verdict) {
+  return verdict == Verdict::kNoGap || verdict == Verdict::kNotDetected || verdict == Verdict::kParameters;
+}
 
 struct FoundParameter {
   std::string name;  // of the effect's field, in its unit
