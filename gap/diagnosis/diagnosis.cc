@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/part_of_progress.h"
+#include "gap/diagnosis/describe/ends_of_ranges.h"
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/measurement_proposals.h"
@@ -327,7 +328,10 @@ class Diagnoser {
       d_.extrapolations = std::move(*extrapolated);
       doubt_what_does_not_extrapolate(options_.verdict, d_);
     }
-    if (explains()) d_.closed_fraction = closure->closed_fraction;
+    if (explains()) {
+      d_.closed_fraction = closure->closed_fraction;
+      for (std::string& note : notes_of_ends_of_ranges(reported_fit())) d_.notes.push_back(std::move(note));
+    }
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     const std::vector<std::string> implausible = implausible_readings();

@@ -13,7 +13,7 @@ namespace slipway::gap {
 namespace {
 
 // What kSoilNuisances are the logarithms of.
-constexpr std::array<SoilParameter, sim::kSoilDims> kSearched{
+constexpr std::array<SoilParameter, sim::kSoilDims> kSoilSearched{
     SoilParameter::kBekker, SoilParameter::kN, SoilParameter::kCohesion, SoilParameter::kFrictionAngle,
     SoilParameter::kShearModulus};
 
@@ -38,10 +38,10 @@ class SoilOfDrives {
     for (const Nuisance& row : nuisance_catalogue())
       if (const auto p = place_of(fit_, row.name, nominal_.name); p && row.on_soil != nullptr)
         row.on_soil(fit_.x[*p], posterior.mean);
-    for (std::size_t q = 0; q < kSearched.size(); ++q)
+    for (std::size_t q = 0; q < kSoilSearched.size(); ++q)
       places_[q] = place_of(fit_, kSoilNuisances[q], nominal_.name);
     set_spread(posterior_, prepared.noise->scales(), posterior);
-    for (std::size_t q = 0; q < kSearched.size(); ++q)
+    for (std::size_t q = 0; q < kSoilSearched.size(); ++q)
       if (places_[q]) describe(q);
     correlate();
   }
@@ -62,12 +62,12 @@ class SoilOfDrives {
     const Parameter& searched = fit_.hypothesis.parameters()[*places_[quantity]];
     const double at = fit_.x[*places_[quantity]], error = deviation(quantity);
     EstimatedParameter p;
-    p.parameter = kSearched[quantity];
+    p.parameter = kSoilSearched[quantity];
     const auto value_at = [&](double logarithm) {
       sim::Soil soil = nominal_.soil;
       for (const Nuisance& row : nuisance_catalogue())
         if (row.name == kSoilNuisances[quantity]) row.on_soil(logarithm, soil);
-      return value_of(kSearched[quantity], soil, estimate_.width_m);
+      return value_of(kSoilSearched[quantity], soil, estimate_.width_m);
     };
     const auto slope_at = [&](double logarithm) {
       constexpr double kStep = 1e-4;
@@ -92,7 +92,7 @@ class SoilOfDrives {
 
   void correlate() {
     std::vector<std::size_t> shown;
-    for (std::size_t q = 0; q < kSearched.size(); ++q)
+    for (std::size_t q = 0; q < kSoilSearched.size(); ++q)
       if (places_[q]) shown.push_back(q);
     const auto n = static_cast<Eigen::Index>(shown.size());
     estimate_.correlation = Eigen::MatrixXd::Identity(n, n);
