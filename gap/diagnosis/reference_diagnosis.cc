@@ -11,26 +11,6 @@
 namespace slipway::gap {
 namespace {
 
-bool same_reading(double a, double b) {
-  return a == b || (std::isnan(a) && std::isnan(b));
-}
-
-// Whether two drives were recorded as the same rows, whatever they are called. Where no pose was measured
-// nobody can say.
-bool same_rows(const MeasuredDriveSeries& a, const MeasuredDriveSeries& b) {
-  const auto same = [](const DriveSample& one, const DriveSample& other) {
-    bool equal = same_reading(one.time_s, other.time_s) && same_reading(one.p_MB.x(), other.p_MB.x()) &&
-                 same_reading(one.p_MB.y(), other.p_MB.y()) &&
-                 same_reading(one.attitude.yaw_rad, other.attitude.yaw_rad);
-    for (std::size_t k = 0; equal && k < one.wheels.size(); ++k)
-      equal = same_reading(one.wheels[k].current_a, other.wheels[k].current_a);
-    return equal;
-  };
-  return std::any_of(a.samples.begin(), a.samples.end(),
-                     [](const DriveSample& sample) { return sample.p_MB.allFinite(); }) &&
-         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(), same);
-}
-
 // Why the drives are not those of one rover on one body, or not others than the reference's.
 std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaign& campaign) {
   constexpr double kSameGravity = 1e-6;

@@ -217,6 +217,28 @@ TEST(DriveWindow, OfRowsThatAreFarApartItHoldsThree) {
   EXPECT_NEAR(windows[0].end_s - windows[0].start_s, 30.0, 1e-9);
 }
 
+TEST(DriveCampaign, ARecordingUnderTwoNamesIsARepeat) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  take_same_rows_as_repeats(campaign);
+  EXPECT_TRUE(campaign.notes.empty());
+  for (const char* id : {"E", "F", "G", "H"}) {
+    campaign.drives.push_back(campaign.drives[0]);
+    campaign.drives.back().id = id;
+  }
+  campaign.drives[2].samples.back().p_MB.x() += 1e-6;
+  campaign.drives[3].terrain = 1;
+  take_same_rows_as_repeats(campaign);
+  EXPECT_EQ(campaign.drives[0].repeat_of, std::nullopt);
+  EXPECT_EQ(campaign.drives[1].repeat_of, "D");
+  EXPECT_EQ(campaign.drives[2].repeat_of, std::nullopt) << "another recording";
+  EXPECT_EQ(campaign.drives[3].repeat_of, std::nullopt) << "on another terrain";
+  EXPECT_EQ(campaign.drives[4].repeat_of, "D");
+  ASSERT_EQ(campaign.notes.size(), 1U);
+  EXPECT_NE(campaign.notes[0].find("2 of 5 drives (E, H) have the very rows"), std::string::npos);
+  take_same_rows_as_repeats(campaign);
+  EXPECT_EQ(campaign.notes.size(), 1U) << "they are known";
+}
+
 TEST(DriveCampaign, WheelsThatTurnedAgainstTheCommandAreNoted) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   for (DriveSample& sample : campaign.drives[0].samples)

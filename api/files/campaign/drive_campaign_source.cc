@@ -281,6 +281,7 @@ void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSer
 void take_as_recorded(gap::DriveCampaign& campaign) {
   gap::adopt_measured_rates(campaign);
   gap::note_turned_against_command(campaign);
+  gap::take_same_rows_as_repeats(campaign);
   for (std::string& note : gap::notes_of_implausible_readings(campaign))
     campaign.notes.push_back(std::move(note));
   if (gap::currents_split_evenly(campaign))

@@ -43,19 +43,60 @@ double turned_as_commanded(const DriveCampaign& campaign, const MeasuredDriveSer
   return sum;
 }
 
+bool same_reading(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+// "D1, D2, D3, ..."
+std::string first_of(std::span<const std::string> drives) {
+  constexpr std::size_t kMaxNamed = 5;
+  const std::size_t named = std::min(kMaxNamed, drives.size());
+  return fmt::format("{}{}", fmt::join(drives.first(named), ", "), named < drives.size() ? ", ..." : "");
+}
+
 }  // namespace
 
 void note_turned_against_command(DriveCampaign& campaign) {
-  constexpr std::size_t kMaxNamed = 5;
   std::vector<std::string> against;
   for (const MeasuredDriveSeries& drive : campaign.drives)
     if (turned_as_commanded(campaign, drive) < 0.0) against.push_back(drive.id);
   if (against.empty()) return;
-  const std::size_t count = against.size();
-  if (count > kMaxNamed) against.resize(kMaxNamed);
   campaign.notes.push_back(
-      fmt::format("{} of {} drives ({}{}): the wheels turned against the commanded direction", count,
-                  campaign.drives.size(), fmt::join(against, ", "), count > kMaxNamed ? ", ..." : ""));
+      fmt::format("{} of {} drives ({}): the wheels turned against the commanded direction", against.size(),
+                  campaign.drives.size(), first_of(against)));
+}
+
+bool same_rows(const MeasuredDriveSeries& a, const MeasuredDriveSeries& b) {
+  const auto same = [](const DriveSample& one, const DriveSample& other) {
+    bool equal = same_reading(one.time_s, other.time_s) && same_reading(one.p_MB.x(), other.p_MB.x()) &&
+                 same_reading(one.p_MB.y(), other.p_MB.y()) &&
+                 same_reading(one.attitude.yaw_rad, other.attitude.yaw_rad);
+    for (std::size_t k = 0; equal && k < one.wheels.size(); ++k)
+      equal = same_reading(one.wheels[k].current_a, other.wheels[k].current_a);
+    return equal;
+  };
+  return std::any_of(a.samples.begin(), a.samples.end(),
+                     [](const DriveSample& sample) { return sample.p_MB.allFinite(); }) &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(), same);
+}
+
+void take_same_rows_as_repeats(DriveCampaign& campaign) {
+  std::vector<std::string> repeats;
+  for (std::size_t d = 1; d < campaign.drives.size(); ++d) {
+    MeasuredDriveSeries& drive = campaign.drives[d];
+    const auto earlier = std::span(campaign.drives).first(d);
+    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const MeasuredDriveSeries& other) {
+      return other.terrain == drive.terrain && same_rows(other, drive);
+    });
+    if (same == earlier.end() || drive.repeat_of) continue;
+    drive.repeat_of = same->repeat_of.value_or(same->id);
+    repeats.push_back(drive.id);
+  }
+  if (repeats.empty()) return;
+  campaign.notes.push_back(fmt::format(
+      "{} of {} drives ({}) have the very rows of an earlier drive: they are taken for repeats of it; a "
+      "recording that stands here under two names counts twice and should stand here once",
+      repeats.size(), campaign.drives.size(), first_of(repeats)));
 }
 
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives) {

@@ -106,6 +106,15 @@ void adopt_measured_rates(DriveCampaign& campaign);
 // A note of drives whose wheels turned against what was commanded. They are read all the same.
 void note_turned_against_command(DriveCampaign& campaign);
 
+// Whether two drives were recorded as the same rows, whatever they are called. Where no pose was measured
+// nobody can say.
+bool same_rows(const MeasuredDriveSeries& a, const MeasuredDriveSeries& b);
+
+// Drives with the very rows of an earlier one of the same terrain become repeats of it, with a note: they are
+// one recording under two names, or the same drive of a simulator without noise, and say nothing new of
+// drives that were not made.
+void take_same_rows_as_repeats(DriveCampaign& campaign);
+
 // The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
 // repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives);
