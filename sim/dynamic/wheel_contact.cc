@@ -139,9 +139,7 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   WheelNumbers one = place.numbers;
   one.theta_f = contact.entry_angle_rad;
   one.leftward = -at.slip_y;
-  const TrackFactors track = track_factors(place.soil, contact.driven_on);
-  one.stiffness *= track.stiffness;
-  one.bulldozing *= track.bulldozing;
+  put_in_track(place.numbers, track_factors(place.soil, contact.driven_on), one);
   const double turning =
       place.locked ? kBlended_standstills * place.commanded_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0

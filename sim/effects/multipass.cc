@@ -8,14 +8,21 @@ namespace {
 constexpr std::array kFields{
     Field{"stiffening", "1", "the soil in a track is 1 + this times as stiff as fresh soil", 0.0, 5.0, 0.9,
           0.0},
+    Field{"strengthening", "1",
+          "of that stiffening, the share by which the track is more cohesive and stiffer in shear", 0.0, 1.0,
+          0.0, 0.0},
 };
 
 void change(std::span<const double> values, Soil& soil) {
   soil.multipass_stiffening = values[0];
+  soil.multipass_strengthening = values[1];
 }
 
+// Authors differ in what a pass does to the soil's strength in shear.
 std::vector<EffectVariant> variants(const RoverModel& /*rover*/) {
-  return {{.free = {free_field(kFields, "stiffening", 0.4)}}};
+  EffectVariant::Free strengthening = free_field(kFields, "strengthening", 0.15);
+  strengthening.shape = true;
+  return {{.free = {free_field(kFields, "stiffening", 0.4), strengthening}}};
 }
 
 EffectParameters hidden(const HiddenDraw& draw) {
@@ -27,7 +34,9 @@ EffectParameters hidden(const HiddenDraw& draw) {
 constexpr Effect kMultipass{
     .name = "multipass",
     .summary = "wheels that follow in the tracks of others run on soil that those have compacted",
-    .reference = "[Wong 2010, repetitive loading]; ARTEMIS section 2.3 names it as open work",
+    .reference =
+        "[Wong 2010, repetitive loading]; in shear [Holm 1969; Senatore & Sandu 2011]; ARTEMIS "
+        "section 2.3 names it as open work",
     .fields = kFields,
     .on_soil = &change,
     .variants = &variants,

@@ -43,15 +43,15 @@ void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
   rut_shares_ = PerWheel<double>(count);
   in_contact_ = wheel_count();
   tracks_.setZero(wheel_count(), wheel_count());
-  share_in_track_ = fresh_stiffness_ = fresh_bulldozing_ = PerWheel<double>(count);
+  share_in_track_ = PerWheel<double>(count);
+  fresh_ = PerWheel<WheelNumbers>(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (soils_[k].multipass_stiffening > 0.0)
       rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
     soils_[k] =
         soil_in_force(soils_[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0);
     numbers_[k] = numbers_of(geometry_.wheels[k].geometry, soils_[k], 0.0, {});
-    fresh_stiffness_[k] = numbers_[k].stiffness;
-    fresh_bulldozing_[k] = numbers_[k].bulldozing;
+    fresh_[k] = numbers_[k];
     follows_tracks_ |= remembers_tracks(soils_[k]) && !geometry_.command.turn_in_place;
   }
   if (geometry_.undetermined == 0) return;
@@ -87,15 +87,9 @@ void RoverBalance::set_tracks(const TrackShares& tracks) {
   tracks_ = tracks;
   for (int k = 0; k < wheel_count(); ++k) {
     share_in_track_[k] = tracks_.row(k).sum();
-    put_numbers_in_track(k, share_in_track_[k], numbers_[k]);
+    put_in_track(fresh_[k], track_factors(soils_[k], share_in_track_[k]), numbers_[k]);
   }
   if (geometry_.undetermined > 0) set_compatibility_of_sinkages();
-}
-
-void RoverBalance::put_numbers_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const {
-  const TrackFactors track = track_factors(soils_[wheel], share_in_track);
-  numbers.stiffness = track.stiffness * fresh_stiffness_[wheel];
-  numbers.bulldozing = track.bulldozing * fresh_bulldozing_[wheel];
 }
 
 Soil RoverBalance::soil_under(const Trial& trial) const {
@@ -165,7 +159,9 @@ void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelCon
     numbers[count].theta_f = trial.entry_angle_rad;
     numbers[count].forward = trial.motion.forward;
     numbers[count].leftward = trial.motion.leftward;
-    if (follows_tracks_) put_numbers_in_track(trial.wheel, trial.share_in_track, numbers[count]);
+    if (follows_tracks_)
+      put_in_track(fresh_[trial.wheel], track_factors(soils_[trial.wheel], trial.share_in_track),
+                   numbers[count]);
     of[count++] = t;
     contacts[t] = {{}, trial.motion, at.motion.rate_rad_s, 0.0};
   }

@@ -153,7 +153,6 @@ class RoverBalance {
   void set_soils(const PerWheel<Soil>& soils);
   void follow_tracks(const Vector& unknowns);
   void set_tracks(const TrackShares& tracks);
-  void put_numbers_in_track(int wheel, double share_in_track, WheelNumbers& numbers) const;
   TrackShares tracks_in(const Vector& unknowns) const;
   using Motions = Eigen::Matrix<double, BalanceGeometry::kPaddedEquilibrium, kMotions>;
   Motions slopes_by_tracks(const Vector& unknowns, const WheelSlopes& slopes, Matrix& jacobian) const;
@@ -194,7 +193,8 @@ class RoverBalance {
   PerWheel<bool> in_air_;
   bool follows_tracks_ = false, holds_tracks_ = false;  // see follows_tracks() and hold_tracks()
   TrackShares tracks_, held_tracks_;                    // at the last residual; where they were held last
-  PerWheel<double> share_in_track_, fresh_stiffness_, fresh_bulldozing_, rut_shares_;
+  PerWheel<WheelNumbers> fresh_;                        // of the wheels outside all tracks
+  PerWheel<double> share_in_track_, rut_shares_;
   int in_contact_;
   double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined
   Vector at_, residual_at_;       // unknowns and values of the last residual; empty once the contacts change

@@ -88,6 +88,11 @@ struct Soil {
   double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
   double rate_shear_speed_m_s = 0.04;
   double multipass_stiffening = 0.0;  // a track is 1 + this times as stiff as fresh soil
+  // Of that stiffening, the share by which cohesion is greater there, and shear stiffness (1 / K).
+  double multipass_strengthening = 0.0;
+  // How many times as cohesive and as stiff in shear this soil is, having been driven over. The pressure
+  // under a wheel is not meant, which Reece's law makes of the cohesion too.
+  double shear_strength_ratio = 1.0;
   // What inclined load takes from the pressure: p ~ exp(-softening (1 - progress)), inclined_load_law.h.
   double inclined_softening = 0.0;
   Digging digging;

@@ -26,13 +26,16 @@ bool remembers_tracks(const Soil& soil) {
 
 // The soil before a wheel in a track was pushed aside by the wheel that made it, or some of it.
 TrackFactors track_factors(const Soil& soil, double share_in_track) {
-  return {.stiffness = 1.0 + soil.multipass_stiffening * share_in_track,
+  const double stiffening = soil.multipass_stiffening * share_in_track;
+  return {.stiffness = 1.0 + stiffening,
+          .shear = 1.0 + soil.multipass_strengthening * stiffening,
           .bulldozing = 1.0 - (1.0 - soil.track_bulldozing) * share_in_track};
 }
 
 void put_in_track(Soil& soil, double share_in_track) {
   const TrackFactors track = track_factors(soil, share_in_track);
   soil.stiffen(track.stiffness);
+  soil.shear_strength_ratio *= track.shear;
   soil.bulldozing *= track.bulldozing;
 }
 

@@ -14,9 +14,10 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
 bool remembers_tracks(const Soil& soil);
 
 // What a track changes, for the share of a wheel's width that stands in it: how many times as stiff as fresh
-// soil the soil is, and how much of the soil before the wheel is left.
+// soil the soil is, how many times as cohesive and as stiff in shear, and how much of the soil before the
+// wheel is left.
 struct TrackFactors {
-  double stiffness = 1.0, bulldozing = 1.0;
+  double stiffness = 1.0, shear = 1.0, bulldozing = 1.0;
 };
 TrackFactors track_factors(const Soil& soil, double share_in_track);
 

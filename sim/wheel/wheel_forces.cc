@@ -78,19 +78,21 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
   const bool sheared_beyond_rim =
       cleats.height_m > 0.0 && (cleats.shear_share > 0.0 || cleats.shear_by_spacing > 0.0);
   const double side_sine = soil.side_bulldozing != 0.0 ? std::sin(soil.side_mobilised_rad) : 1.0;
+  const double per_shear_x = soil.shear_strength_ratio / soil.shear_modulus_x_m,
+               per_shear_y = soil.shear_strength_ratio / soil.shear_modulus_y_m;
   WheelNumbers numbers{{.radius = wheel.radius_m,
                         .width = wheel.width_m,
                         .rim_friction = wheel.rim_friction,
                         .grouser_height = wheel.grousers.height_m,
                         .grouser_count = wheel.grousers.count * wheel.grousers.thrust,
-                        .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
+                        .per_cleat_shear = per_shear_x / wheel.grousers.mobilisation,
                         .cleat_by_slip = wheel.grousers.by_slip,
                         .stiffness = soil.pressure.stiffness(wheel.width_m),
                         .n = soil.pressure.n,
-                        .cohesion = soil.cohesion_pa,
+                        .cohesion = soil.shear_strength_ratio * soil.cohesion_pa,
                         .phi = soil.friction_angle_rad,
-                        .per_shear_x = 1.0 / soil.shear_modulus_x_m,
-                        .per_shear_y = 1.0 / soil.shear_modulus_y_m,
+                        .per_shear_x = per_shear_x,
+                        .per_shear_y = per_shear_y,
                         .c1 = soil.c1,
                         .c2 = soil.c2,
                         .n1 = soil.n1,
@@ -120,6 +122,15 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
                            wheel.grousers.surcharge > 0.0};
   if (soil.pressure_law.row != nullptr || soil.shear_law.row != nullptr) choose_laws(wheel, soil, numbers);
   return numbers;
+}
+
+void put_in_track(const WheelNumbers& fresh, const TrackFactors& track, WheelNumbers& numbers) {
+  numbers.stiffness = track.stiffness * fresh.stiffness;
+  numbers.bulldozing = track.bulldozing * fresh.bulldozing;
+  numbers.cohesion = track.shear * fresh.cohesion;
+  numbers.per_shear_x = track.shear * fresh.per_shear_x;
+  numbers.per_shear_y = track.shear * fresh.per_shear_y;
+  numbers.per_cleat_shear = track.shear * fresh.per_cleat_shear;
 }
 
 WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "sim/soil/soil_in_force.h"
 #include "sim/wheel/wheel_forces.h"
 
 namespace slipway::sim {
@@ -102,6 +103,9 @@ struct WheelNumbers : WheelValues<double> {
 
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                         const WheelMotion& motion);
+
+// Makes the numbers of a wheel outside all tracks those that it has in a track, but for its angle and motion.
+void put_in_track(const WheelNumbers& fresh, const TrackFactors& track, WheelNumbers& numbers);
 
 // Which parts of the law are at work in any of the wheels: the others are left out.
 struct LawParts {

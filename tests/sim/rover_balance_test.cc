@@ -14,6 +14,7 @@ constexpr double kMars = 3.71;
 Soil with_memory() {
   Soil soil = sandy_loam();
   soil.multipass_stiffening = 1.5;
+  soil.multipass_strengthening = 0.2;
   soil.bulldozing = 1.0;
   soil.track_bulldozing = 0.2;
   return soil;

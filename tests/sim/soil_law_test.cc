@@ -125,6 +125,38 @@ TEST(ReecePressure, ATrackIsStifferUnderItToo) {
               1.9 * soil_in_force(soil, 3.71, 0.04, 0.0).pressure_form(contact).stiffness, 1e-6);
 }
 
+// The balance and the dynamics scale a wheel's numbers; wheels of several slices take the soil of the track.
+TEST(SoilInATrack, ScalesTheNumbersOfAWheelAsItChangesTheSoil) {
+  WheelGeometry wheel = kWheel;
+  wheel.grousers = {.height_m = 0.01, .count = 24.0};
+  for (Soil soil : {sandy_loam(), reece_soil(), wong_soil(0.6)}) {
+    soil.multipass_stiffening = 1.8;
+    soil.multipass_strengthening = 0.15;
+    soil.bulldozing = 1.0;
+    soil.track_bulldozing = 0.3;
+    for (const double share : {0.0, 0.4, 1.0}) {
+      const WheelNumbers fresh = numbers_of(wheel, soil_in_force(soil, 3.71, 0.04, 0.0), 0.5, {0.6, 0.1});
+      WheelNumbers numbers = fresh;
+      put_in_track(fresh, track_factors(soil, share), numbers);
+      WheelForces forces;
+      wheel_forces(std::span(&numbers, 1), std::span(&forces, 1));
+      expect_near(forces, wheel_forces(wheel, soil_in_force(soil, 3.71, 0.04, share), 0.5, {0.6, 0.1}), 1e-9);
+    }
+  }
+}
+
+TEST(SoilInATrack, PullsMoreAtTheSameDepthWhereItIsStrongerInShear) {
+  Soil soil = sandy_loam();
+  soil.multipass_stiffening = 1.0;
+  const auto pull = [&](double strengthening) {
+    soil.multipass_strengthening = strengthening;
+    return wheel_forces(kWheel, soil_in_force(soil, 3.71, 0.04, 1.0), 0.5, {0.8, 0.0}).drawbar_pull_n;
+  };
+  EXPECT_GT(pull(0.3), 1.02 * pull(0.0));
+  soil.multipass_stiffening = 0.0;
+  EXPECT_EQ(pull(0.3), pull(0.0)) << "without tracks nothing is";
+}
+
 TEST(WongShear, IsWholeAtItsModulusAndFallsToTheResidual) {
   for (const double residual : {0.3, 0.6, 0.9}) {
     const ShearForm form = wong_shear_form(residual);

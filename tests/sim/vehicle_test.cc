@@ -264,6 +264,7 @@ TEST(RandomRovers, EveryStationGivesFiniteNumbersOrAReason) {
                           std::pow(10.0, uniform(9, 1.0, 4.2)), uniform(10, 20.0, 42.0),
                           uniform(11, 0.005, 0.04), 0.2, 0.3);
     soil.multipass_stiffening = uniform(12, 0.0, 1.0) < 0.5 ? 0.0 : uniform(13, 0.0, 5.0);
+    soil.multipass_strengthening = uniform(30, 0.0, 0.5);
     QuasiStaticSolver solver(rover, kMars);
     const StationState state = solver.solve(*stance, soil, random_command(trial));
     given_up += state.outcome == Outcome::kNotConverged ? 1 : 0;

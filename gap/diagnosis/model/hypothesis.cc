@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "core/parallel_for.h"
 #include "gap/diagnosis/model/reference_belief.h"
@@ -188,6 +189,8 @@ std::vector<sim::EffectSetting> Hypothesis::all_settings(std::span<const double>
 }
 
 ModelState Hypothesis::state(std::span<const double> x) const {
+  if (x.size() != parameters_.size())
+    throw std::invalid_argument("Hypothesis::state: one number a parameter");
   ModelState state;
   state.rover = *campaign_->rover;
   for (const NominalSoil& soil : campaign_->soils) state.soils.push_back(soil.soil);
