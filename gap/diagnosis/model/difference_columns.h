@@ -15,8 +15,7 @@ namespace slipway::gap {
 // what a window met (smooth_difference.h), and what the tracks of other wheels change, which no smooth
 // function has: a wheel stands in them or beside them, as the rover slides and turns. Where another
 // simulator's tracks are not fresh soil either, that is no change since the reference. It is what `multipass`
-// does with a usual and with a large stiffening, and with a large one that strengthens the soil in shear too,
-// in each channel by itself.
+// does with a usual and with a large stiffening, in each channel by itself.
 //
 // Observations x coefficients, at nuisances x; `expected`: predicted there without any difference. The number
 // and the meaning of the columns depend on the rover's wheels alone.
