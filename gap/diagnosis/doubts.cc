@@ -177,14 +177,6 @@ bool all_stand_beyond_belief(const Diagnosis& d, const VerdictOptions& options) 
   });
 }
 
-// Whether each closes most of the gap and is as good as certain. Beside soil that is bent that is enough for
-// a wheel law too where the drives scatter as they were believed to: beside another wheel law they do not.
-bool all_certain_to_close_most(const Diagnosis& d, const VerdictOptions& options) {
-  return of_each_named(d, options, [&](const EffectMarginal& m) {
-    return as_good_as_certain(m, options) && m.closed_share >= options.min_partial_share;
-  });
-}
-
 // Whether each is more probable than not, and no other wheel law; where other sets were alike, whether each
 // is in nearly all of them.
 bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
@@ -220,15 +212,13 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
   if (!why) why = parameter_at_its_end(answer.fit);
   if (why) return Doubt{*why, true, all_stand(d, options)};
   const bool stand = all_stand_beyond_belief(d, options);
-  const std::optional<std::string> scatter = scatter_beyond_belief(answer.scatter, options);
-  why = closure_beyond_belief(answer.fit, options);
+  why = beyond_belief(answer.fit, named(d), options);
   if (why) return Doubt{*why, false, stand};
-  why = soil_beyond_belief(answer.fit, named(d), options);
-  if (why) return Doubt{*why, false, stand || (!scatter && all_certain_to_close_most(d, options))};
   why = little_closed(answer, d, options);
   if (why) return Doubt{*why, false, false};
-  if (scatter)
-    return Doubt{*scatter, false,
+  why = scatter_beyond_belief(answer.scatter, options);
+  if (why)
+    return Doubt{*why, false,
                  stand || (all_probable(d, options) && answer.closed_share >= options.min_partial_share)};
   return std::nullopt;
 }

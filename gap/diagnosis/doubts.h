@@ -57,8 +57,7 @@ std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBel
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where each may stand beside something unknown (naming.h). In
 // cases 3 and 5 none of them may be how another wheel law differs (may_be_wheel_law), for that is what is
-// asked for there. Where only a soil is beyond belief, one that is as good as certain and closes
-// min_partial_share stands all the same: beside another wheel law the drives' scatter is beyond belief too.
+// asked for there.
 // Each may also be as good as certain (stands_beyond_belief), and in case 5 they may also close
 // min_partial_share together, each being more probable than not, or having min_partial_probability where
 // other sets were alike. In case 4 no name stands. d has its `gap`.

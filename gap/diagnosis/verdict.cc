@@ -178,20 +178,26 @@ void judge_effects(const ExplanationSearch& search, const Naming& naming, double
   if (rival != nullptr) d.overturned_by = next_best(*rival);
 }
 
-// Something of no known form, alone, of which drives without anything amiss show as much.
-bool may_be_chance(const Candidate& chosen, const ExplanationSearch& search, const VerdictOptions& options) {
-  return chosen.with_unknown && chosen.effects.empty() &&
-         evidence_over_nothing(chosen, search.candidates) < options.min_unknown_evidence;
+// Something of no known form, alone, as little of which drives without anything amiss show: why it may be
+// chance.
+std::optional<std::string> why_chance(const Candidate& chosen, const ExplanationSearch& search,
+                                      double unknown, const VerdictOptions& options) {
+  if (!chosen.with_unknown || !chosen.effects.empty()) return std::nullopt;
+  const double evidence = evidence_over_nothing(chosen, search.candidates);
+  if (evidence < options.min_unknown_evidence)
+    return fmt::format("by a log evidence of {:.1f}, of which less than {:.0f} may be chance", evidence,
+                       options.min_unknown_evidence);
+  if (unknown < options.min_unknown_probability)
+    return fmt::format("of which less than {:.2f} may be chance", options.min_unknown_probability);
+  return std::nullopt;
 }
 
-void judge_chance(const ExplanationSearch& search, const Candidate& chosen, double unknown,
+void judge_chance(const ExplanationSearch& search, double unknown, const std::string& why,
                   const VerdictOptions& options, Diagnosis& d) {
   d.least_detectable = least_detectable_of(search.screened, options);
   d.verdict = Verdict::kNotDetected;
-  d.reason = fmt::format(
-      "no gap was surely found: something unknown has a probability of {:.2f}, by a log evidence of {:.1f}, "
-      "of which less than {:.0f} may be chance",
-      unknown, evidence_over_nothing(chosen, search.candidates), options.min_unknown_evidence);
+  d.reason =
+      fmt::format("no gap was surely found: something unknown has a probability of {:.2f}, {}", unknown, why);
   d.overturned_by = "more drives, which show what is there more clearly";
 }
 
@@ -278,8 +284,8 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   const double probability = sets[key_of(chosen)];
   if (search.candidates[naming.chosen].unknown())
     d.outside = outside_finding(search, naming.chosen, campaign);
-  if (may_be_chance(chosen, search, options.verdict)) {
-    judge_chance(search, chosen, unknown, options.verdict, d);
+  if (const auto why = why_chance(chosen, search, unknown, options.verdict)) {
+    judge_chance(search, unknown, *why, options.verdict, d);
   } else if (chosen.unknown() && !naming.partial) {
     judge_unknown(search, naming.chosen, unknown, d);
   } else if (naming.effects.empty()) {

@@ -1,5 +1,6 @@
 #include "gap/diagnosis/search/selection.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -129,22 +130,28 @@ TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
               log_marginal(Eigen::VectorXd(r(rows)), Eigen::MatrixXd(a(rows, Eigen::all))), 1e-10);
 }
 
-// Healthy drives have columns of a discrepancy term that fit them a little better, too.
+// Healthy drives have columns of a discrepancy term that fit them a little better, too; with drives of
+// another physics, and a reference, one of them came to 0.499.
 TEST(Verdict, IsNotDetectedWhereSomethingUnknownMayBeChance) {
   DriveCampaign campaign;
   campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   campaign.soils.resize(1);
   const DiagnosisOptions options;
-  for (const double beyond : {-0.5, 0.5}) {
+  const auto judged = [&](double probability, double evidence) {
     ExplanationSearch search;
     search.fits.push_back({{}, Hypothesis(campaign, {})});
-    search.candidates = {candidate({}, 0.6, true), candidate({}, 0.4)};
-    search.candidates[0].log_evidence = options.verdict.min_unknown_evidence + beyond;
+    search.candidates = {candidate({}, probability, true), candidate({}, 1.0 - probability)};
+    search.candidates[0].log_evidence = evidence;
     Diagnosis d;
     judge(campaign, {}, search, {}, options, d);
-    EXPECT_EQ(d.verdict, beyond < 0.0 ? Verdict::kNotDetected : Verdict::kUnknown);
-    EXPECT_NE(d.reason.find("0.60"), std::string::npos) << d.reason;
-  }
+    EXPECT_NE(d.reason.find(fmt::format("{:.2f}", probability)), std::string::npos) << d.reason;
+    return d.verdict;
+  };
+  const double evidence = options.verdict.min_unknown_evidence,
+               least = options.verdict.min_unknown_probability;
+  EXPECT_EQ(judged(least + 0.01, evidence + 0.5), Verdict::kUnknown);
+  EXPECT_EQ(judged(least + 0.01, evidence - 0.5), Verdict::kNotDetected);
+  EXPECT_EQ(judged(least - 0.01, evidence + 0.5), Verdict::kNotDetected);
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ void list_soft_patch(const SoftPatchOptions& options, Lister& list) {
 void list_search(const SearchOptions& options, Lister& list) {
   list.step("search");
   const auto& [withheld, max_refitted, max_variants, max_paired, max_seconds, min_pair_gain, max_linear_shift,
-               max_behind, min_named_size, something_else, outside, max_outside, max_outside_seconds,
-               max_scattered, threads] = options;
+               max_behind, out_of_reach, min_named_size, something_else, outside, max_outside,
+               max_outside_seconds, max_scattered, threads] = options;
   static_cast<void>(withheld);
   static_cast<void>(threads);
   SLIPWAY_FIELD(max_refitted);
@@ -136,6 +136,7 @@ void list_search(const SearchOptions& options, Lister& list) {
   SLIPWAY_FIELD(min_pair_gain);
   SLIPWAY_FIELD(max_linear_shift);
   SLIPWAY_FIELD(max_behind);
+  SLIPWAY_FIELD(out_of_reach);
   SLIPWAY_FIELD(min_named_size);
   SLIPWAY_FIELD(something_else);
   SLIPWAY_FIELD(outside);
@@ -198,11 +199,11 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               min_unknown_evidence, max_soil_shift, max_closure_shift, max_stand_in_shift, rival_share,
-               min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
-               name_by_marginals, min_closed_share, min_named_share, strong_evidence, min_share_of_law,
-               min_share_of_rest, min_partial_probability, min_partial_share, min_probability_beside_form,
-               min_share_beside_form, min_probability_closing_most] = options;
+               min_unknown_evidence, min_unknown_probability, max_soil_shift, max_closure_shift,
+               max_stand_in_shift, rival_share, min_doubt, determined_share, max_angle_deg, min_signature,
+               max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share, strong_evidence,
+               min_share_of_law, min_share_of_rest, min_partial_probability, min_partial_share,
+               min_probability_beside_form, min_share_beside_form, min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -215,6 +216,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(forgiven_closure);
   SLIPWAY_FIELD(max_scatter);
   SLIPWAY_FIELD(min_unknown_evidence);
+  SLIPWAY_FIELD(min_unknown_probability);
   SLIPWAY_FIELD(max_soil_shift);
   SLIPWAY_FIELD(max_closure_shift);
   SLIPWAY_FIELD(max_stand_in_shift);

@@ -201,10 +201,13 @@ class Searcher {
   // Given up where it would come neither near the best fit nor to what it competes with.
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start,
                            double must_reach = kAnyEvidence) const {
-    for (const FittedExplanation& fit : search_.fits)
-      must_reach = std::max(must_reach, fit.log_evidence - options_.search.max_behind);
     return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads, {},
-                           must_reach);
+                           std::max(must_reach, best_evidence() - options_.search.max_behind));
+  }
+  double best_evidence() const {
+    double best = kAnyEvidence;
+    for (const FittedExplanation& fit : search_.fits) best = std::max(best, fit.log_evidence);
+    return best;
   }
   std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
     search_.fits.push_back(fitted(hypothesis, start));
@@ -222,6 +225,7 @@ class Searcher {
   // of log evidence below the best. So it is fitted again from what was believed of them, with the effects at
   // half of their usual sizes at least.
   void fit_from_neutral(FittedExplanation& fit) const {
+    if (fit.log_evidence < best_evidence() - options_.search.out_of_reach) return;
     std::vector<double> start = fit.hypothesis.neutral();
     for (std::size_t p = fit.hypothesis.nuisance_count(); p < start.size(); ++p) {
       const Parameter& parameter = fit.hypothesis.parameters()[p];

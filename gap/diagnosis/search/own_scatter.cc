@@ -32,31 +32,21 @@ class ScatterSearch {
         compared_with_(noise.log_normalisation()),
         own_(noise) {}
 
-  // From these scales, estimated anew in so many rounds. What is estimated is of linearised residuals,
-  // without the fits' robust loss, and may be worse than the scales before: of all that is met the most
-  // probable counts. Something else has scales of its own where there are rounds.
-  ScatteredExplanation beside(const FittedExplanation& fit, const NoiseScales& from, int rounds) && {
-    scatter_around(fit, model_, own_);
-    own_.set(from, options_.search.threads);
-    FittedExplanation last = refine_soft_patch(campaign_, model_, own_, fitted_again(fit), options_.fit,
-                                               options_.soft_patch, options_.search.threads);
-    ScatteredExplanation best{last, own_.scales(), evidence_of(last)};
-    int best_round = -1;
-    for (int round = 0; round < rounds && !model_.cancelled(); ++round) {
-      estimate_beside(last, options_.discrepancy.imprecision);
-      last = fitted_again(last);
-      if (const double now = evidence_of(last); now > best.alone) {
-        best = {last, own_.scales(), now};
-        best_round = round;
-      }
-    }
+  // From these scales, estimated anew in so many rounds. A better place of its effect is looked for where it
+  // comes to `must_reach`. Something else has scales of its own where there are rounds.
+  ScatteredExplanation beside(const FittedExplanation& fit, const NoiseScales& from, int rounds,
+                              double must_reach) && {
+    const auto started = [&] {
+      scatter_around(fit, model_, own_);
+      own_.set(from, options_.search.threads);
+      return fitted_again(fit);
+    };
+    ScatteredExplanation best = estimated(started(), rounds);
+    if (placed_effect(fit) && best.alone >= must_reach)
+      best = estimated(refine_soft_patch(campaign_, model_, own_, started(), options_.fit,
+                                         options_.soft_patch, options_.search.threads),
+                       rounds);
     if (model_.cancelled()) return best;
-    if (best_round + 1 < rounds) {
-      scatter_around(best.fit, model_, own_);
-      own_.set(best.scales, options_.search.threads);
-      best.fit = fitted_again(best.fit);
-      best.alone = evidence_of(best.fit);
-    }
     const DiscrepancyGain gain = gain_of(best.fit);
     best.with_something_else = best.alone + gain.something_else;
     best.alone += gain.imprecision;
@@ -69,6 +59,27 @@ class ScatterSearch {
   }
 
  private:
+  // What is estimated is of linearised residuals, without the fits' robust loss, and may be worse than the
+  // scales before: of all that is met the most probable counts.
+  ScatteredExplanation estimated(FittedExplanation last, int rounds) {
+    ScatteredExplanation best{last, own_.scales(), evidence_of(last)};
+    int best_round = -1;
+    for (int round = 0; round < rounds && !model_.cancelled(); ++round) {
+      estimate_beside(last, options_.discrepancy.imprecision);
+      last = fitted_again(last);
+      if (const double now = evidence_of(last); now > best.alone) {
+        best = {last, own_.scales(), now};
+        best_round = round;
+      }
+    }
+    if (best_round + 1 == rounds || model_.cancelled()) return best;
+    scatter_around(best.fit, model_, own_);
+    own_.set(best.scales, options_.search.threads);
+    best.fit = fitted_again(best.fit);
+    best.alone = evidence_of(best.fit);
+    return best;
+  }
+
   FittedExplanation fitted_again(const FittedExplanation& fit) const {
     return fit_explanation(fit.hypothesis, model_, own_, fit.x, options_.fit, options_.search.threads);
   }
@@ -197,8 +208,8 @@ class ScatterComparison {
   ScatteredExplanation compare(std::size_t index, const FittedExplanation& fit, const NoiseScales& from,
                                int rounds) {
     progress_.report("estimating the scatter beside explanations", 0.9);
-    ScatteredExplanation own =
-        ScatterSearch(campaign_, model_, noise_, discrepancy_, options_).beside(fit, from, rounds);
+    ScatteredExplanation own = ScatterSearch(campaign_, model_, noise_, discrepancy_, options_)
+                                   .beside(fit, from, rounds, best_evidence() - options_.search.out_of_reach);
     bool better = false;
     for (Candidate& c : search_.candidates) {
       const double evidence = c.with_unknown ? own.with_something_else : own.alone;
@@ -210,6 +221,12 @@ class ScatterComparison {
     if (better && placed_effect(own.fit))
       search_.fits[index] = fitted(own.fit.hypothesis, own.fit.x, options_.fit);
     return own;
+  }
+
+  double best_evidence() const {
+    double best = kAnyEvidence;
+    for (const ScatteredExplanation& found : found_) best = std::max(best, found.alone);
+    return best;
   }
 
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start,
