@@ -97,6 +97,24 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
   return stood_in_for ? chosen : *rest;
 }
 
+// Of an explanation that is bent beyond belief a larger one of the same causes that is not, about as
+// probable, each of whose causes has some weight.
+std::size_t not_bent(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
+                     const Beliefs& beliefs, const VerdictOptions& options) {
+  const Candidate& first = search.candidates[chosen];
+  if (first.with_unknown || first.effects.empty() || !beliefs.are_bent_beyond(first)) return chosen;
+  const Names causes = set_of(first.effects);
+  for (std::size_t c = 0; c < search.candidates.size(); ++c) {
+    const Candidate& larger = search.candidates[c];
+    const Names own = set_of(larger.effects);
+    if (!larger.unknown() && larger.probability >= options.believable_share * first.probability &&
+        own.size() > causes.size() && std::includes(own.begin(), own.end(), causes.begin(), causes.end()) &&
+        !beliefs.are_bent_beyond(larger) && of_weight(search, c, shares, beliefs, options) == c)
+      return c;
+  }
+  return chosen;
+}
+
 // Of several known causes of an explanation that is bent beyond belief those that are as good as certain,
 // where nothing is bent with them alone, and otherwise those of them that stand there.
 std::size_t of_belief(const ExplanationSearch& search, std::size_t chosen,
@@ -149,6 +167,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     const Beliefs& beliefs, const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
   chosen = of_weight(search, chosen, shares, beliefs, options);
+  chosen = not_bent(search, chosen, shares, beliefs, options);
   chosen = of_belief(search, chosen, marginals, beliefs, options);
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);

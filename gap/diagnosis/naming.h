@@ -48,7 +48,9 @@ struct Beliefs {
 // what is left is then not the other form of the one that another could mimic. An effect is also kept where
 // without it a closure would go beyond max_stand_in_shift that is within with it: the closure stands in for
 // the effect. What closes less than min_named_share in all is not named; where its evidence is strong
-// (strong_evidence), doubts.h says so. Of an explanation that is bent beyond belief only those effects are
+// (strong_evidence), doubts.h says so. Instead of an explanation that is bent beyond belief a larger one of
+// the same causes is taken that is not bent, if it has believable_share of its probability and each of its
+// causes has some weight. Of an explanation that is bent beyond belief only those effects are
 // kept that are as good as certain, if nothing is bent with them alone, and otherwise those that
 // stand_beyond_belief(), where they were compared and there are any. Where nothing unknown is
 // among the rest, it is named. Where something unknown is, an effect is named all the same whose marginal

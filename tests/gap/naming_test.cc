@@ -157,6 +157,26 @@ TEST(Naming, OfWhatIsBentBeyondBeliefKeepsWhatIsAsGoodAsCertain) {
   EXPECT_EQ(names(0.997, 1).size(), 2U) << "the wheel law is another: so is this";
 }
 
+// 7401 s06: a wheel that is smaller stood on soil 5.5 deviations off; cleats beside it, about as probable,
+// leave the soil where it was believed to be.
+TEST(Naming, TakesALargerSetThatBendsNothingWhereItIsAboutAsProbable) {
+  const auto names = [](double of_pair, double grousers_close, std::size_t bent_below) {
+    const ExplanationSearch search =
+        search_of({candidate({"wheel_radius"}, 0.45), candidate({"wheel_radius", "grousers"}, of_pair),
+                   candidate({}, 0.01)});
+    const std::vector<EffectMarginal> marginals{{"wheel_radius", 0.9, 0.72},
+                                                {"grousers", 0.44, grousers_close}};
+    const Beliefs beliefs{[](const Candidate&) { return 0.0; },
+                          [=](const Candidate& c) { return c.effects.size() < bent_below; }};
+    return named(search, marginals, {}, 1.0, 0.0, beliefs).effects;
+  };
+  EXPECT_EQ(names(0.38, 0.38, 2), (std::vector<std::string>{"wheel_radius", "grousers"}));
+  EXPECT_EQ(names(0.20, 0.38, 2), std::vector<std::string>{"wheel_radius"}) << "less than half as probable";
+  EXPECT_EQ(names(0.38, 0.01, 2), std::vector<std::string>{"wheel_radius"}) << "cleats close next to nothing";
+  EXPECT_EQ(names(0.38, 0.38, 3), std::vector<std::string>{"wheel_radius"}) << "that bends the soil, too";
+  EXPECT_EQ(names(0.38, 0.38, 1), std::vector<std::string>{"wheel_radius"}) << "nothing is bent";
+}
+
 // Where the wheel law was another one (5701 s01, level L3) a wheel that drags stood beside a multipass that
 // the key does not have, on soils that both of them bent.
 TEST(Naming, OfAnotherWheelLawKeepsWhatIsNoLawOfAllWheels) {

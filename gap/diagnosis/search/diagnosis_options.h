@@ -105,8 +105,9 @@ struct SearchOptions {
   // better place of an effect has made up for: neither is looked for.
   double out_of_reach = 500.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
-  // is how one simulator's numerics differ from another's.
-  double min_named_size = 0.3;
+  // is how one simulator's numerics differ from another's. Effects of half their usual size came to 0.48 and
+  // more; motors of healthy drives once to 0.33.
+  double min_named_size = 0.4;
   bool something_else = true;   // the discrepancy term competes; without it for ablations
   bool outside = true;          // causes from outside compete (outside_cause.h); without them for ablations
   int max_outside = 4;          // causes from outside that are fitted in full
@@ -195,6 +196,9 @@ struct VerdictOptions {
   // lacks bends soils to a name that is not its own; of 115 right answers 4 came to more, 3 of them a patch.
   // Six numbers that are believed as they should be come to more once in 9,000 times.
   double max_soil_shift = 5.25;
+  // Of the probability of a set whose soil or closures are so far off, with which a larger set of the same
+  // effects, beside which nothing is, is the answer.
+  double believable_share = 0.5;
   // The same of a closure, whatever the answer: of c1 0.3, so that loose sand's 0.18 may be compact sand's
   // 0.43 [Wong and Reece 1967]. In 24 healthy campaigns none came to more than 1.1.
   double max_closure_shift = 6.0;
