@@ -59,9 +59,14 @@ bool has_one_form(const std::string& cause) {
          !effect->has_many_forms;
 }
 
+bool acts_at_a_place(const std::string& cause) {
+  const sim::Effect* const effect = sim::find_effect(cause);
+  return effect != nullptr && effect->variant_at != nullptr;
+}
+
 // An effect of the ground or of the motors that authors write differently, wherever the rover drives.
 bool is_law(const std::string& cause) {
-  return is_effect(cause) && !has_one_form(cause) && sim::find_effect(cause)->variant_at == nullptr;
+  return is_effect(cause) && !has_one_form(cause) && !acts_at_a_place(cause);
 }
 
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
@@ -70,13 +75,16 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
                       const Beliefs& beliefs, const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
-  double most_of_laws = 0.0;
-  for (const std::string& cause : first.effects)
+  double most_of_laws = 0.0, most_of_ground = 0.0;
+  for (const std::string& cause : first.effects) {
     if (is_law(cause)) most_of_laws = std::max(most_of_laws, shares.of_gap(cause));
+    if (may_be_wheel_law(cause)) most_of_ground = std::max(most_of_ground, shares.of_gap(cause));
+  }
   Names kept;
   for (const std::string& cause : first.effects) {
-    const double least = is_law(cause) ? options.min_share_of_law * most_of_laws : 0.0;
-    if (shares.of_gap(cause) >= std::max(options.min_closed_share, least)) kept.insert(cause);
+    const double beside = is_law(cause) ? most_of_laws : acts_at_a_place(cause) ? most_of_ground : 0.0;
+    if (shares.of_gap(cause) >= std::max(options.min_closed_share, options.min_share_of_law * beside))
+      kept.insert(cause);
   }
   if (std::any_of(kept.begin(), kept.end(), is_effect)) {
     const bool beside_one_form = std::all_of(kept.begin(), kept.end(), has_one_form);

@@ -42,25 +42,26 @@ struct Beliefs {
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
 // less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; so is
-// a law of ground or motors beside another, of which it closes less than min_share_of_law: that much another
-// equation of the other one may close. Beside an effect that closes more, an effect is left out only if it
-// also closes less than min_share_of_rest of what the other leaves, where either of the two has one form:
-// what is left is then not the other form of the one that another could mimic. An effect is also kept where
-// without it a closure would go beyond max_stand_in_shift that is within with it: the closure stands in for
-// the effect. What closes less than min_named_share in all is not named; where its evidence is strong
-// (strong_evidence), doubts.h says so. Instead of an explanation that is bent beyond belief a larger one of
-// the same causes is taken that is not bent, if it has believable_share of its probability and each of its
-// causes has some weight. Of an explanation that is bent beyond belief only those effects are
-// kept that are as good as certain, if nothing is bent with them alone, and otherwise those that
-// stand_beyond_belief(), where they were compared and there are any. Where nothing unknown is
-// among the rest, it is named. Where something unknown is, an effect is named all the same whose marginal
-// probability and share reach min_partial_probability and min_partial_share; of several these must stand
-// together in an explanation that was compared. The effects of what was chosen are also named where each of
-// them has that probability, closes min_closed_share, and closes min_partial_share of what the others leave.
-// Where what was chosen is a cause from outside, so that the unknown has a known form, min_share_beside_form
-// does with min_probability_beside_form, or min_probability_closing_most of an effect that closes
-// min_partial_share. Beside something unknown nothing that may be how another wheel law differs
-// (may_be_wheel_law) is named where the drives' scatter is beyond belief.
+// a law of ground or motors beside another, of which it closes less than min_share_of_law, and as little of
+// what acts at a place beside a law of the ground: that much another equation of the other one may close.
+// Beside an effect that closes more, an effect is left out only if it also closes less than min_share_of_rest
+// of what the other leaves, where either of the two has one form: what is left is then not the other form of
+// the one that another could mimic. An effect is also kept where without it a closure would go beyond
+// max_stand_in_shift that is within with it: the closure stands in for the effect. What closes less than
+// min_named_share in all is not named; where its evidence is strong (strong_evidence), doubts.h says so.
+// Instead of an explanation that is bent beyond belief a larger one of the same causes is taken that is not
+// bent, if it has believable_share of its probability and each of its causes has some weight. Of an
+// explanation that is bent beyond belief only those effects are kept that are as good as certain, if nothing
+// is bent with them alone, and otherwise those that stand_beyond_belief(), where they were compared and there
+// are any. Where nothing unknown is among the rest, it is named. Where something unknown is, an effect is
+// named all the same whose marginal probability and share reach min_partial_probability and
+// min_partial_share; of several these must stand together in an explanation that was compared. The effects of
+// what was chosen are also named where each of them has that probability, closes min_closed_share, and closes
+// min_partial_share of what the others leave. Where what was chosen is a cause from outside, so that the
+// unknown has a known form, min_share_beside_form does with min_probability_beside_form, or
+// min_probability_closing_most of an effect that closes min_partial_share. Beside something unknown nothing
+// that may be how another wheel law differs (may_be_wheel_law) is named where the drives' scatter is beyond
+// belief.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const Beliefs& beliefs, const VerdictOptions& options);

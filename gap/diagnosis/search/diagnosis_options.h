@@ -105,9 +105,9 @@ struct SearchOptions {
   // better place of an effect has made up for: neither is looked for.
   double out_of_reach = 500.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
-  // is how one simulator's numerics differ from another's. Effects of half their usual size came to 0.48 and
-  // more; motors of healthy drives once to 0.33.
-  double min_named_size = 0.4;
+  // is how one simulator's numerics differ from another's. At 0.4 a wheel that drags at half its usual size
+  // lost its name.
+  double min_named_size = 0.3;
   bool something_else = true;   // the discrepancy term competes; without it for ablations
   bool outside = true;          // causes from outside compete (outside_cause.h); without them for ablations
   int max_outside = 4;          // causes from outside that are fitted in full
@@ -219,7 +219,8 @@ struct VerdictOptions {
   // names on sealed campaigns one was right, and one was of a healthy campaign.
   double min_named_share = 0.1;
   double strong_evidence = 50.0;
-  // Of what another law of ground or motors closes, the same of a second law: the square of
+  // Of what another law of ground or motors closes, the same of a second law, and of what acts at a place
+  // beside a law of the ground: the square of
   // DiscrepancyOptions::form_imprecision, by which the first one's equation may be off.
   double min_share_of_law = 0.09;
   // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
