@@ -178,8 +178,8 @@ void judge_effects(const ExplanationSearch& search, const Naming& naming, double
   if (rival != nullptr) d.overturned_by = next_best(*rival);
 }
 
-// Something of no known form, alone, as little of which drives without anything amiss show: why it may be
-// chance.
+// Why something of no known form, alone, may be chance; nothing where it is more than drives show that have
+// nothing amiss.
 std::optional<std::string> why_chance(const Candidate& chosen, const ExplanationSearch& search,
                                       double unknown, const VerdictOptions& options) {
   if (!chosen.with_unknown || !chosen.effects.empty()) return std::nullopt;

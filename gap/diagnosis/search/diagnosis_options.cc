@@ -199,8 +199,8 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               min_unknown_evidence, min_unknown_probability, max_soil_shift, believable_share,
-               max_closure_shift, max_stand_in_shift, rival_share, min_doubt, determined_share, max_angle_deg,
+               min_unknown_evidence, min_unknown_probability, max_soil_shift, max_closure_shift,
+               believable_share, max_stand_in_shift, rival_share, min_doubt, determined_share, max_angle_deg,
                min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
                strong_evidence, min_share_of_law, min_share_of_rest, min_partial_probability,
                min_partial_share, min_probability_beside_form, min_share_beside_form,
@@ -219,8 +219,8 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(min_unknown_evidence);
   SLIPWAY_FIELD(min_unknown_probability);
   SLIPWAY_FIELD(max_soil_shift);
-  SLIPWAY_FIELD(believable_share);
   SLIPWAY_FIELD(max_closure_shift);
+  SLIPWAY_FIELD(believable_share);
   SLIPWAY_FIELD(max_stand_in_shift);
   SLIPWAY_FIELD(rival_share);
   SLIPWAY_FIELD(min_doubt);

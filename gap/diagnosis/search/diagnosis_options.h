@@ -188,23 +188,24 @@ struct VerdictOptions {
   double max_scatter = 1.6;
   // Of something of no known form, alone, the log evidence over nothing below which it may be chance.
   double min_unknown_evidence = 4.0;
-  // The same of the probability of all that has something unknown. Of 1,458 answers to sealed campaigns 9
-  // were `unknown` by less: 5 of healthy drives, 3 where an effect of the library was hidden.
+  // The same of the probability of all that has something unknown. Of 1,458 answers to sealed campaigns 11
+  // were `unknown` by less: 5 of healthy drives, 5 with an effect of the library, 1 with a cause from
+  // outside.
   double min_unknown_probability = 0.6;
   // Usual prior deviations by which a soil may be off what was believed of it beside named effects, all of
   // its parameters and the ratio of its shear moduli together, without a reference. A cause that the library
   // lacks bends soils to a name that is not its own; of 115 right answers 4 came to more, 3 of them a patch.
   // Six numbers that are believed as they should be come to more once in 9,000 times.
   double max_soil_shift = 5.25;
-  // Of the probability of a set whose soil or closures are so far off, with which a larger set of the same
-  // effects, beside which nothing is, is the answer.
-  double believable_share = 0.5;
   // The same of a closure, whatever the answer: of c1 0.3, so that loose sand's 0.18 may be compact sand's
   // 0.43 [Wong and Reece 1967]. In 24 healthy campaigns none came to more than 1.1.
   double max_closure_shift = 6.0;
-  // The same of a closure beside which an effect is left out that closes little: beyond it, the closure
-  // stands in for the effect. Where the effect was not there, closures of 11 sealed campaigns came to 2.7 at
-  // most.
+  // Of the probability of a set whose soil or closure is further off than that: a larger set of the same
+  // effects that has as much, and beside which neither is, is the answer.
+  double believable_share = 0.5;
+  // How far off a closure may be beside which an effect is left out that closes little: beyond it, the
+  // closure stands in for the effect. Where the effect was not there, closures of 11 sealed campaigns came
+  // to 2.7 at most.
   double max_stand_in_shift = 4.0;
   double rival_share = 0.75;       // of the answer's probability: a rival with as much is alike
   double min_doubt = 0.9;          // probability of something unknown where an answer left a gap
@@ -220,8 +221,8 @@ struct VerdictOptions {
   double min_named_share = 0.1;
   double strong_evidence = 50.0;
   // Of what another law of ground or motors closes, the same of a second law, and of what acts at a place
-  // beside a law of the ground: the square of
-  // DiscrepancyOptions::form_imprecision, by which the first one's equation may be off.
+  // beside a law of the ground: the square of DiscrepancyOptions::form_imprecision, by which the first one's
+  // equation may be off.
   double min_share_of_law = 0.09;
   // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
   // closes nearly all leaves little of the whole to close.
