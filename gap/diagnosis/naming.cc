@@ -106,7 +106,8 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const
 }
 
 // Of an explanation that is bent beyond belief a larger one of the same causes that is not, about as
-// probable, each of whose causes has some weight.
+// probable, each of whose causes has some weight. What acts at a place may bend the soil (doubts.h), and is
+// no way out.
 std::size_t not_bent(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
                      const Beliefs& beliefs, const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
@@ -117,7 +118,8 @@ std::size_t not_bent(const ExplanationSearch& search, std::size_t chosen, const 
     const Names own = set_of(larger.effects);
     if (!larger.unknown() && larger.probability >= options.believable_share * first.probability &&
         own.size() > causes.size() && std::includes(own.begin(), own.end(), causes.begin(), causes.end()) &&
-        !beliefs.are_bent_beyond(larger) && of_weight(search, c, shares, beliefs, options) == c)
+        std::none_of(own.begin(), own.end(), acts_at_a_place) && !beliefs.are_bent_beyond(larger) &&
+        of_weight(search, c, shares, beliefs, options) == c)
       return c;
   }
   return chosen;

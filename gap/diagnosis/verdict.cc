@@ -188,7 +188,7 @@ std::optional<std::string> why_chance(const Candidate& chosen, const Explanation
     return fmt::format("by a log evidence of {:.1f}, of which less than {:.0f} may be chance", evidence,
                        options.min_unknown_evidence);
   if (unknown < options.min_unknown_probability)
-    return fmt::format("of which less than {:.2f} may be chance", options.min_unknown_probability);
+    return fmt::format("and less than {:.2f} may be chance", options.min_unknown_probability);
   return std::nullopt;
 }
 

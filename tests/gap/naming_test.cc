@@ -160,12 +160,12 @@ TEST(Naming, OfWhatIsBentBeyondBeliefKeepsWhatIsAsGoodAsCertain) {
 // 7401 s06: a wheel that is smaller stood on soil 5.5 deviations off; cleats beside it, about as probable,
 // leave the soil where it was believed to be.
 TEST(Naming, TakesALargerSetThatBendsNothingWhereItIsAboutAsProbable) {
-  const auto names = [](double of_pair, double grousers_close, std::size_t bent_below) {
+  const auto names = [](double of_pair, double grousers_close, std::size_t bent_below,
+                        const std::string& second = "grousers") {
     const ExplanationSearch search =
-        search_of({candidate({"wheel_radius"}, 0.45), candidate({"wheel_radius", "grousers"}, of_pair),
+        search_of({candidate({"wheel_radius"}, 0.45), candidate({"wheel_radius", second}, of_pair),
                    candidate({}, 0.01)});
-    const std::vector<EffectMarginal> marginals{{"wheel_radius", 0.9, 0.72},
-                                                {"grousers", 0.44, grousers_close}};
+    const std::vector<EffectMarginal> marginals{{"wheel_radius", 0.9, 0.72}, {second, 0.44, grousers_close}};
     const Beliefs beliefs{[](const Candidate&) { return 0.0; },
                           [=](const Candidate& c) { return c.effects.size() < bent_below; }};
     return named(search, marginals, {}, 1.0, 0.0, beliefs).effects;
@@ -175,6 +175,8 @@ TEST(Naming, TakesALargerSetThatBendsNothingWhereItIsAboutAsProbable) {
   EXPECT_EQ(names(0.38, 0.01, 2), std::vector<std::string>{"wheel_radius"}) << "cleats close next to nothing";
   EXPECT_EQ(names(0.38, 0.38, 3), std::vector<std::string>{"wheel_radius"}) << "that bends the soil, too";
   EXPECT_EQ(names(0.38, 0.38, 1), std::vector<std::string>{"wheel_radius"}) << "nothing is bent";
+  EXPECT_EQ(names(0.38, 0.38, 2, "soft_patch"), std::vector<std::string>{"wheel_radius"})
+      << "the soil beside a patch is not asked how far off it is";
 }
 
 // 7501 s24: soil that weakens with slip, by another equation, left 5 % of the gap where the rover slipped
