@@ -13,7 +13,6 @@
 #include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/verdict.h"
-#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -66,10 +65,7 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& reporte
 // Whether an effect that acts at a place is named: a patch is told from other causes by its place, and its
 // rim bends the soil around it.
 bool names_a_place(std::span<const std::string> effects) {
-  return std::any_of(effects.begin(), effects.end(), [](const std::string& effect) {
-    const sim::Effect* const of = sim::find_effect(effect);
-    return of != nullptr && of->variant_at != nullptr;
-  });
+  return std::any_of(effects.begin(), effects.end(), acts_at_a_place);
 }
 
 // The soil that lies furthest from what was believed of it, where that is too far to name effects beside it.

@@ -59,11 +59,6 @@ bool has_one_form(const std::string& cause) {
          !effect->has_many_forms;
 }
 
-bool acts_at_a_place(const std::string& cause) {
-  const sim::Effect* const effect = sim::find_effect(cause);
-  return effect != nullptr && effect->variant_at != nullptr;
-}
-
 // An effect of the ground or of the motors that authors write differently, wherever the rover drives.
 bool is_law(const std::string& cause) {
   return is_effect(cause) && !has_one_form(cause) && !acts_at_a_place(cause);
@@ -151,6 +146,11 @@ Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
 }
 
 }  // namespace
+
+bool acts_at_a_place(const std::string& cause) {
+  const sim::Effect* const effect = sim::find_effect(cause);
+  return effect != nullptr && effect->variant_at != nullptr;
+}
 
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options) {
   return marginal.probability >= options.min_probability_beside_form &&

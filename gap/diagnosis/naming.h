@@ -66,6 +66,9 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const Beliefs& beliefs, const VerdictOptions& options);
 
+// Whether a cause is an effect of the library that acts at a place: a patch of soft soil.
+bool acts_at_a_place(const std::string& cause);
+
 // min_probability_beside_form and min_share_beside_form are reached.
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options);
 

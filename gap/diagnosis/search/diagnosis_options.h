@@ -101,8 +101,9 @@ struct SearchOptions {
   double max_linear_shift = 2.5;
   // A fit that would stay this much log evidence behind the best one is given up.
   double max_behind = 50.0;
-  // Log evidence behind the best, of which at least 3 % is believed, that no other start of a fit and no
-  // better place of an effect has made up for: neither is looked for.
+  // Log evidence behind the best, from which a fit is not started again at what was believed of the soils,
+  // and no better place of an effect is looked for beside its own scatter: 3 % of it are believed at least
+  // (1.2 % with a reference).
   double out_of_reach = 500.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's. At 0.4 a wheel that drags at half its usual size

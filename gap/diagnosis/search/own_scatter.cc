@@ -36,16 +36,19 @@ class ScatterSearch {
   // comes to `must_reach`. Something else has scales of its own where there are rounds.
   ScatteredExplanation beside(const FittedExplanation& fit, const NoiseScales& from, int rounds,
                               double must_reach) && {
-    const auto started = [&] {
+    const auto set_scales = [&] {
       scatter_around(fit, model_, own_);
       own_.set(from, options_.search.threads);
-      return fitted_again(fit);
     };
-    ScatteredExplanation best = estimated(started(), rounds);
-    if (placed_effect(fit) && best.alone >= must_reach)
-      best = estimated(refine_soft_patch(campaign_, model_, own_, started(), options_.fit,
-                                         options_.soft_patch, options_.search.threads),
+    set_scales();
+    const FittedExplanation first = fitted_again(fit);
+    ScatteredExplanation best = estimated(first, rounds);
+    if (placed_effect(fit) && best.alone >= must_reach) {
+      set_scales();
+      best = estimated(refine_soft_patch(campaign_, model_, own_, first, options_.fit, options_.soft_patch,
+                                         options_.search.threads),
                        rounds);
+    }
     if (model_.cancelled()) return best;
     const DiscrepancyGain gain = gain_of(best.fit);
     best.with_something_else = best.alone + gain.something_else;
