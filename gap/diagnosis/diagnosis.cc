@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/angle.h"
 #include "core/part_of_progress.h"
@@ -218,8 +219,7 @@ class Diagnoser {
             [&](const Candidate& c) {
               return scatter_beyond_belief(furthest_scatter(), options_.verdict) ||
                      beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict);
-            },
-        .scatter_is_beyond = scatter_beyond_belief(furthest_scatter(), options_.verdict).has_value()};
+            }};
     most_believed_ = best_;
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
@@ -309,8 +309,8 @@ class Diagnoser {
     return gap::choose_corrections(prepared_, search_, selection, best_, most_believed_, options_);
   }
 
-  Result<void> close_gap(const DriveResampling& drives) {
-    const CorrectionChoice choice = choose_corrections(drives);
+  // What drives held out of the fit are told with the corrections and without.
+  Result<GapClosure> hold_out(const CorrectionChoice& choice, const DriveResampling& drives) {
     auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
     if (!closure) return fail(closure.error());
     d_.gap = std::move(closure->channels);
@@ -318,9 +318,37 @@ class Diagnoser {
     d_.held_out = std::move(closure->points);
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
+    return closure;
+  }
+
+  // Names some of the effects alone; whether an explanation with these was compared.
+  bool name_only(std::span<const std::string> names) {
+    const auto naming = name_partially(search_, naming_.chosen, names);
+    if (!naming) return false;
+    naming_ = *naming;
+    best_ = naming_.correction;
+    d_.effects = found_effects(search_.fits[search_.candidates[naming_.candidate].fit], d_.marginals);
+    return true;
+  }
+
+  Result<void> close_gap(const DriveResampling& drives) {
+    CorrectionChoice choice = choose_corrections(drives);
+    auto closure = hold_out(choice, drives);
+    if (!closure) return fail(closure.error());
     const double log_evidence = evidence_over_nothing(best(), search_.candidates);
     withdraw_what_tells_no_better(closure->log_density_gain, log_evidence, options_.verdict, d_);
-    doubt_answer({reported_fit(), named_share_, log_evidence, furthest_scatter()}, options_.verdict, d_);
+    std::optional<Doubt> doubt =
+        doubt_of({reported_fit(), named_share_, log_evidence, furthest_scatter()}, options_.verdict, d_);
+    if (doubt && !doubt->standing.empty() && !doubt->fallen.empty()) {
+      if (name_only(doubt->standing)) {
+        choice = {{refitted(prepared_, best_fit(), options_)}, {}};
+        closure = hold_out(choice, drives);
+        if (!closure) return fail(closure.error());
+      } else {
+        for (std::string& name : std::exchange(doubt->standing, {})) doubt->fallen.push_back(std::move(name));
+      }
+    }
+    if (doubt) apply_doubt(*doubt, options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);

@@ -159,20 +159,6 @@ bool of_each_named(const Diagnosis& d, const VerdictOptions& options, const Hold
                      [&](const FoundEffect& effect) { return holds(marginal_of(d.marginals, effect.name)); });
 }
 
-// Whether each named effect may stand beside something unknown.
-bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
-  return of_each_named(d, options,
-                       [&](const EffectMarginal& m) { return stands_beside_unknown(m, options); });
-}
-
-// Whether each keeps its name in an explanation that is bent beyond belief.
-bool all_stand_beyond_belief(const Diagnosis& d, const VerdictOptions& options) {
-  return of_each_named(d, options, [&](const EffectMarginal& m) {
-    return stands_beyond_belief(m, options) ||
-           (stands_beside_unknown(m, options) && !may_be_wheel_law(m.name));
-  });
-}
-
 // Whether each is more probable than not, and no other wheel law; where other sets were alike, whether each
 // is in nearly all of them.
 bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
@@ -195,28 +181,12 @@ void raise_unknown(const VerdictOptions& options, Diagnosis& d) {
   take_marginals_anew(d);
 }
 
-// What is held against an answer, and whether its names stand all the same.
-struct Doubt {
-  std::string why;
-  bool of_a_gap = false;  // and not of belief
-  bool names_stand = false;
-};
-
-std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions& options,
-                              const Diagnosis& d) {
-  std::optional<std::string> why = gap_left(d, options);
-  if (!why) why = parameter_at_its_end(answer.fit);
-  if (why) return Doubt{*why, true, all_stand(d, options)};
-  const bool stand = all_stand_beyond_belief(d, options);
-  why = beyond_belief(answer.fit, named(d), options);
-  if (why) return Doubt{*why, false, stand};
-  why = little_closed(answer, d, options);
-  if (why) return Doubt{*why, false, false};
-  why = scatter_beyond_belief(answer.scatter, options);
-  if (why)
-    return Doubt{*why, false,
-                 stand || (all_probable(d, options) && answer.closed_share >= options.min_partial_share)};
-  return std::nullopt;
+// A doubt against which those of the named effects stand of which this holds.
+template <class Stands>
+Doubt doubt_against(const Diagnosis& d, const std::string& why, bool of_a_gap, const Stands& stands) {
+  Doubt doubt{.why = why, .of_a_gap = of_a_gap, .standing = {}, .fallen = {}};
+  for (const std::string& name : named(d)) (stands(name) ? doubt.standing : doubt.fallen).push_back(name);
+  return doubt;
 }
 
 }  // namespace
@@ -262,8 +232,8 @@ void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
   if (!names_effects(d.verdict) || d.partial || log_density_gain > 0.0) return;
   const bool is_strong = log_evidence >= options.strong_evidence;
   if (of_each_named(d, options, [&](const EffectMarginal& m) {
-        return stands_beside_unknown(m, options) ||
-               (is_strong && m.closed_share >= options.min_partial_share);
+        return m.closed_share >= options.min_partial_share &&
+               (is_strong || m.probability >= options.min_partial_probability);
       }))
     return;
   const std::vector<std::string> names = named(d);
@@ -276,35 +246,53 @@ void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
   withdraw_effects(d);
 }
 
-void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d) {
-  const double unknown = unknown_probability(d);
-  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial || unknown <= 0.0)
-    return;
-  const std::optional<Doubt> doubt = doubt_of(answer, options, d);
-  if (!doubt) return;
+std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions& options,
+                              const Diagnosis& d) {
+  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial ||
+      unknown_probability(d) <= 0.0)
+    return std::nullopt;
+  const std::optional<std::string> bent = beyond_belief(answer.fit, named(d), options);
+  const std::optional<std::string> scattered = scatter_beyond_belief(answer.scatter, options);
+  const auto stands = [&](const std::string& name) {
+    return options.name_by_marginals &&
+           stands_beside_unknown(marginal_of(d.marginals, name), bent || scattered, options);
+  };
+  std::optional<std::string> left = gap_left(d, options);
+  if (!left) left = parameter_at_its_end(answer.fit);
+  if (left) return doubt_against(d, *left, true, stands);
+  if (bent) return doubt_against(d, *bent, false, stands);
+  if (const auto little = little_closed(answer, d, options))
+    return doubt_against(d, *little, false, [](const std::string&) { return false; });
+  if (!scattered) return std::nullopt;
+  const bool all = all_probable(d, options) && answer.closed_share >= options.min_partial_share;
+  return doubt_against(d, *scattered, false, [&](const std::string& name) { return all || stands(name); });
+}
+
+void apply_doubt(const Doubt& doubt, const VerdictOptions& options, Diagnosis& d) {
   // Names that stand keep their probability where the doubt is one of belief.
-  if (doubt->of_a_gap || !doubt->names_stand) raise_unknown(options, d);
-  const std::vector<std::string> names = named(d);
-  if (doubt->names_stand) {
+  if (doubt.of_a_gap || doubt.standing.empty()) raise_unknown(options, d);
+  if (!doubt.fallen.empty())
+    d.notes.push_back(fmt::format("{} would explain a part, and may be the unknown cause's shadow: {}",
+                                  fmt::join(doubt.fallen, " and "),
+                                  doubt.standing.empty() ? "nothing is named" : "not named"));
+  d.overturned_by = kSameLook;
+  if (!doubt.standing.empty()) {
+    std::erase_if(d.effects, [&](const FoundEffect& effect) {
+      return std::find(doubt.fallen.begin(), doubt.fallen.end(), effect.name) != doubt.fallen.end();
+    });
     d.partial = true;
     d.verdict = Verdict::kEffects;
-    d.reason = fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names),
-                           doubt->why);
-    d.overturned_by = kSameLook;
+    d.reason = fmt::format("{}, and something unexplained remains beside it: {}",
+                           closing_words(d, doubt.standing), doubt.why);
     return;
   }
-  if (!names.empty())
-    d.notes.push_back(
-        fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
-                    fmt::join(names, " and ")));
   withdraw_effects(d);
   d.least_detectable.clear();
   d.verdict = Verdict::kUnknown;
   d.reason = fmt::format("{}: {}",
-                         doubt->of_a_gap ? "a gap remains that no effect of the library explains"
-                                         : "nothing in the library explains these drives believably",
-                         doubt->why);
-  d.overturned_by = kSameLook;
+                         doubt.of_a_gap ? "a gap remains that no effect of the library explains"
+                                        : "nothing in the library explains these drives believably",
+                         doubt.why);
 }
 
 void doubt_readings(std::span<const std::string> implausible, const VerdictOptions& options, Diagnosis& d) {

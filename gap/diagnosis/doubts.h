@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/noise_model.h"
@@ -17,8 +18,8 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 
 // Effects with which drives held out of the fit are told no better than re-tuned (their log density gains
 // nothing) are not named, however probable they are on the drives that they were fitted to; but those that
-// close most of the gap by the fits' own robust loss are, where they are as probable as beside something
-// unknown (stands_beside_unknown) or their log evidence over nothing is strong_evidence.
+// close most of the gap (min_partial_share) by the fits' own robust loss are, where they have
+// min_partial_probability or their log evidence over nothing is strong_evidence.
 void withdraw_what_tells_no_better(double log_density_gain, double log_evidence,
                                    const VerdictOptions& options, Diagnosis& d);
 
@@ -48,20 +49,31 @@ std::optional<std::string> beyond_belief(const FittedExplanation& fit, std::span
 std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
                                                  const VerdictOptions& options);
 
-// Takes an answer back to `unknown` where
+// What is held against an answer.
+struct Doubt {
+  std::string why;
+  bool of_a_gap = false;  // and not of belief
+  // Of the named effects those that may be named beside something unknown all the same, and the others.
+  std::vector<std::string> standing, fallen;
+};
+
+// An answer is in doubt where
 //   1. far more than the floor is left on drives held out of the fit,
 //   2. a parameter lies at the end of what it may be,
 //   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects, none of which
 //      acts at a place, beyond max_soil_shift,
 //   4. what is named closes less than min_named_share of the gap for all its strong_evidence, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
-// Effects keep their names in a partial answer where each may stand beside something unknown (naming.h). In
-// cases 3 and 5 none of them may be how another wheel law differs (may_be_wheel_law), for that is what is
-// asked for there.
-// Each may also be as good as certain (stands_beyond_belief), and in case 5 they may also close
-// min_partial_share together, each being more probable than not, or having min_partial_probability where
-// other sets were alike. In case 4 no name stands. d has its `gap`.
-void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
+// Effects that may be named beside something unknown (stands_beside_unknown) stand; where 3 or 5 holds none
+// that may be how another wheel law differs, for that is what is asked for there. In case 5 all stand that
+// close min_partial_share together, each being more probable than not, or having min_partial_probability
+// where other sets were alike. In case 4 none does. Nothing where the answer is not in doubt, or says already
+// that something is unknown. d has its `gap`.
+std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions& options,
+                              const Diagnosis& d);
+
+// Takes the answer back to a partial one with the names that stand, or to `unknown` where there are none.
+void apply_doubt(const Doubt& doubt, const VerdictOptions& options, Diagnosis& d);
 
 // Where readings are implausible, as these notes say (reading_plausibility.h), that nothing is missing is
 // taken back to `unknown`: currents in mA agree with any model once they are taken to scatter by as much.

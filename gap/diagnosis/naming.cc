@@ -127,17 +127,17 @@ std::size_t of_belief(const ExplanationSearch& search, std::size_t chosen,
                       const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || first.effects.size() < 2 || !beliefs.are_bent_beyond(first)) return chosen;
-  const auto with_those = [&](bool (*stands)(const EffectMarginal&, const VerdictOptions&)) {
+  const auto with_those = [&](const auto& stands) {
     Names kept;
     for (const EffectMarginal& m : marginals)
-      if (stands(m, options) &&
-          std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
+      if (stands(m) && std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
         kept.insert(m.name);
     return kept.empty() ? std::nullopt : known_with(search, kept);
   };
-  const auto certain = with_those(as_good_as_certain);
+  const auto certain = with_those([&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
   if (certain && !beliefs.are_bent_beyond(search.candidates[*certain])) return *certain;
-  return with_those(stands_beyond_belief).value_or(chosen);
+  return with_those([&](const EffectMarginal& m) { return stands_beside_unknown(m, true, options); })
+      .value_or(chosen);
 }
 
 Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
@@ -163,13 +163,22 @@ bool may_be_wheel_law(const std::string& effect) {
   return row.wheel_field.empty() && !row.reads_motor_temperature;
 }
 
-bool stands_beyond_belief(const EffectMarginal& marginal, const VerdictOptions& options) {
-  return as_good_as_certain(marginal, options) && !may_be_wheel_law(marginal.name);
+bool stands_beside_unknown(const EffectMarginal& marginal, bool another_law, const VerdictOptions& options) {
+  const bool is_law = may_be_wheel_law(marginal.name);
+  if (is_law && another_law) return false;
+  return (marginal.probability >= options.min_partial_probability &&
+          marginal.closed_share >= options.min_partial_share) ||
+         (!is_law && as_good_as_certain(marginal, options));
 }
 
-bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options) {
-  return marginal.probability >= options.min_partial_probability &&
-         marginal.closed_share >= options.min_partial_share;
+std::optional<Naming> name_partially(const ExplanationSearch& search, std::size_t chosen,
+                                     std::span<const std::string> names) {
+  const Names wanted(names.begin(), names.end());
+  const auto has_names = [&](const Candidate& c) { return set_of(library_effects_of(c)) == wanted; };
+  const auto any = candidate_where(search, [&](const Candidate& c) { return c.unknown() && has_names(c); });
+  if (!any) return std::nullopt;
+  const auto alone = candidate_where(search, [&](const Candidate& c) { return !c.outside && has_names(c); });
+  return Naming{library_effects_of(search.candidates[*any]), true, chosen, *any, alone.value_or(*any)};
 }
 
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
@@ -182,19 +191,17 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;
+  const bool another_law = beliefs.are_bent_beyond(first);
   Names names;
   for (const EffectMarginal& m : marginals)
-    if (stands_beside_unknown(m, options) || (known_form && stands_beside_form(m, options)))
+    if (stands_beside_unknown(m, another_law, options) || (known_form && stands_beside_form(m, options)))
       names.insert(m.name);
   if (const Names all = set_of(library_effects_of(first)); stand_together(all, marginals, shares, options))
     names.insert(all.begin(), all.end());
-  if (beliefs.scatter_is_beyond) std::erase_if(names, may_be_wheel_law);
+  if (another_law) std::erase_if(names, may_be_wheel_law);
   if (names.empty()) return as_chosen(search, chosen);
-  const auto has_names = [&](const Candidate& c) { return set_of(library_effects_of(c)) == names; };
-  const auto any = candidate_where(search, [&](const Candidate& c) { return c.unknown() && has_names(c); });
-  const auto alone = candidate_where(search, [&](const Candidate& c) { return !c.outside && has_names(c); });
-  if (!any) return as_chosen(search, chosen);
-  return {library_effects_of(search.candidates[*any]), true, chosen, *any, alone.value_or(*any)};
+  const std::vector<std::string> all(names.begin(), names.end());
+  return name_partially(search, chosen, all).value_or(as_chosen(search, chosen));
 }
 
 }  // namespace slipway::gap

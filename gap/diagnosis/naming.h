@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,8 +37,6 @@ struct Beliefs {
   std::function<double(const Candidate& candidate)> closure_shift;  // furthest_closure(), without its sign
   // beyond_belief(), or a scatter between drives beyond VerdictOptions::max_scatter
   std::function<bool(const Candidate& candidate)> are_bent_beyond;
-  // A scale of the scatter between drives is: the wheel law may be another one.
-  bool scatter_is_beyond = false;
 };
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
@@ -52,16 +51,15 @@ struct Beliefs {
 // Instead of an explanation that is bent beyond belief a larger one of the same causes is taken that is not
 // bent, if it has believable_share of its probability and each of its causes has some weight. Of an
 // explanation that is bent beyond belief only those effects are kept that are as good as certain, if nothing
-// is bent with them alone, and otherwise those that stand_beyond_belief(), where they were compared and there
-// are any. Where nothing unknown is among the rest, it is named. Where something unknown is, an effect is
-// named all the same whose marginal probability and share reach min_partial_probability and
-// min_partial_share; of several these must stand together in an explanation that was compared. The effects of
-// what was chosen are also named where each of them has that probability, closes min_closed_share, and closes
-// min_partial_share of what the others leave. Where what was chosen is a cause from outside, so that the
-// unknown has a known form, min_share_beside_form does with min_probability_beside_form, or
-// min_probability_closing_most of an effect that closes min_partial_share. Beside something unknown nothing
-// that may be how another wheel law differs (may_be_wheel_law) is named where the drives' scatter is beyond
-// belief.
+// is bent with them alone, and otherwise those that stand_beside_unknown(), where they were compared and
+// there are any. Where nothing unknown is among the rest, it is named. Where something unknown is, those
+// effects are named that stand beside it; of several these must stand together in an explanation that was
+// compared. The effects of what was chosen are also named where each of them has min_partial_probability,
+// closes min_closed_share, and closes min_partial_share of what the others leave. Where what was chosen is a
+// cause from outside, so that the unknown has a known form, min_share_beside_form does with
+// min_probability_beside_form, or min_probability_closing_most of an effect that closes min_partial_share.
+// Beside something unknown nothing that may be how another wheel law differs (may_be_wheel_law) is named
+// where what was chosen is bent beyond belief.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const Beliefs& beliefs, const VerdictOptions& options);
@@ -76,11 +74,13 @@ bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& op
 // to all wheels alike, wherever and however warm they turn.
 bool may_be_wheel_law(const std::string& effect);
 
-// Whether an effect keeps its name in an explanation that is bent beyond belief: it is as good as certain,
-// and what is bent does not say of it that the wheel law is another one.
-bool stands_beyond_belief(const EffectMarginal& marginal, const VerdictOptions& options);
+// Whether an effect may be named beside something unknown: it has min_partial_probability and closes
+// min_partial_share, or is as good as certain and no law of all wheels. `another_law`: what is bent beyond
+// belief says that the wheel law is another one, so that no law of all wheels may be named.
+bool stands_beside_unknown(const EffectMarginal& marginal, bool another_law, const VerdictOptions& options);
 
-// Whether an effect may be named beside something unknown.
-bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);
+// A partial answer with exactly these names; nothing where no explanation with something unknown has them.
+std::optional<Naming> name_partially(const ExplanationSearch& search, std::size_t chosen,
+                                     std::span<const std::string> names);
 
 }  // namespace slipway::gap

@@ -140,18 +140,6 @@ std::vector<FoundParameter> parameters_of(const FittedExplanation& fit, std::siz
   return found;
 }
 
-// The library's effects of the chosen explanation, with their parameters.
-std::vector<FoundEffect> found_effects(const FittedExplanation& fit,
-                                       const std::map<std::string, double>& probability_of) {
-  std::vector<FoundEffect> all;
-  const auto effects = fit.hypothesis.effects();
-  for (std::size_t e = 0; e < effects.size(); ++e)
-    if (find_outside(effects[e].effect) == nullptr)
-      all.push_back({effects[e].effect, effects[e].label, probability_of.at(effects[e].effect),
-                     parameters_of(fit, e, true)});
-  return all;
-}
-
 std::string remaining_words(const Diagnosis& d) {
   return d.outside ? fmt::format("{} (probability {:.2f})", d.outside->words, d.outside->probability)
                    : "something of no known form";
@@ -254,6 +242,17 @@ std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, s
   return std::nullopt;
 }
 
+std::vector<FoundEffect> found_effects(const FittedExplanation& fit,
+                                       std::span<const EffectMarginal> marginals) {
+  std::vector<FoundEffect> all;
+  const auto effects = fit.hypothesis.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (find_outside(effects[e].effect) == nullptr)
+      all.push_back({effects[e].effect, effects[e].label,
+                     marginal_of(marginals, effects[e].effect).probability, parameters_of(fit, e, true)});
+  return all;
+}
+
 std::string closing_words(const Diagnosis& d, std::span<const std::string> effects) {
   std::vector<std::string> each;
   for (const std::string& effect : effects) {
@@ -268,11 +267,9 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
            const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
   const Candidate& chosen = search.candidates[naming.candidate];
   std::map<SetKey, double> sets;
-  std::map<std::string, double> single;
   double unknown = 0.0;
   for (const Candidate& c : search.candidates) {
     sets[key_of(c)] += c.probability;
-    for (const std::string& name : c.effects) single[name] += c.probability;
     if (c.unknown()) unknown += c.probability;
     ComparedSet set = compared(c);
     set.probability = c.probability;
@@ -292,7 +289,7 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     judge_without_effects(campaign, prepared, search, chosen, probability, options, d);
   } else {
     judge_effects(search, naming, probability, options, d);
-    d.effects = found_effects(search.fits[chosen.fit], single);
+    d.effects = found_effects(search.fits[chosen.fit], d.marginals);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/naming.h"
@@ -28,6 +29,10 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
 // The cause from outside that a candidate has, with its parameters; nothing, where it has none.
 std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, std::size_t candidate,
                                               const DriveCampaign& campaign);
+
+// The library's effects of a fit, with their parameters and their probabilities among the marginals.
+std::vector<FoundEffect> found_effects(const FittedExplanation& fit,
+                                       std::span<const EffectMarginal> marginals);
 
 // "dragging_wheel (probability 0.999) closes 93 % of the gap", of each effect; d has its `marginals`.
 std::string closing_words(const Diagnosis& d, std::span<const std::string> effects);

@@ -9,6 +9,11 @@
 namespace slipway::gap {
 namespace {
 
+// Asks what is held against an answer, and takes it back as far.
+void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d) {
+  if (const auto doubt = doubt_of(answer, options, d)) apply_doubt(*doubt, options, d);
+}
+
 // An answer with so much of its floor left on held-out drives, at least.
 Diagnosis answer_with(Verdict verdict, double least_left, const std::string& effect = "hardpan") {
   Diagnosis d;
@@ -66,6 +71,53 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
 
   reported.x.front() = reported.hypothesis.parameters().front().highest;
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
+}
+
+// A shifted load as good as certain keeps its name beside a law of all wheels that loses its own.
+TEST(Verdict, KeepsTheNamesThatStandWhereOthersFall) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  reported.x = reported.hypothesis.neutral();
+  Diagnosis d = answer_with(Verdict::kEffects, 2.2, "com_offset");
+  d.effects.push_back({"multipass", "", 0.95, {}});
+  d.marginals = {{.name = "com_offset", .probability = 0.999, .closed_share = 0.31},
+                 {.name = "multipass", .probability = 1.0, .closed_share = 0.4}};
+  const auto doubt = doubt_of({reported, 0.7, 100.0, {}}, VerdictOptions{}, d);
+  ASSERT_TRUE(doubt);
+  EXPECT_TRUE(doubt->of_a_gap);
+  EXPECT_EQ(doubt->standing, std::vector<std::string>{"com_offset"});
+  EXPECT_EQ(doubt->fallen, std::vector<std::string>{"multipass"});
+  apply_doubt(*doubt, VerdictOptions{}, d);
+  EXPECT_EQ(d.verdict, Verdict::kEffects);
+  EXPECT_TRUE(d.partial);
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects.front().name, "com_offset");
+  EXPECT_NE(d.reason.find("com_offset"), std::string::npos) << d.reason;
+  EXPECT_EQ(d.reason.find("multipass"), std::string::npos) << d.reason;
+  ASSERT_EQ(d.notes.size(), 1U);
+  EXPECT_NE(d.notes.front().find("multipass"), std::string::npos) << d.notes.front();
+}
+
+// A law of all wheels that closes most of a gap of which too much is left keeps its name, but not on soil
+// that is bent beyond belief as well.
+TEST(Verdict, TakesAWheelLawBackWhereSoilIsBentAndAGapIsLeft) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  const auto doubted = [&](double deviations) {
+    reported.x = reported.hypothesis.neutral();
+    for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
+      const Parameter& parameter = reported.hypothesis.parameters()[p];
+      if (parameter.name == "n") reported.x[p] = parameter.neutral + deviations * parameter.usual_std;
+    }
+    Diagnosis d = answer_with(Verdict::kEffects, 2.2, "multipass");
+    d.marginals.front() = {.name = "multipass", .probability = 0.999, .closed_share = 0.7};
+    const auto doubt = doubt_of({reported, 0.7, 100.0, {}}, VerdictOptions{}, d);
+    return doubt && doubt->of_a_gap ? doubt->standing : std::vector<std::string>{"no doubt of a gap"};
+  };
+  EXPECT_EQ(doubted(0.0), std::vector<std::string>{"multipass"});
+  EXPECT_TRUE(doubted(5.5).empty());
 }
 
 // Currents that scattered by half of themselves from drive to drive hid a wheel that dragged: without its
