@@ -34,6 +34,15 @@ bool stand_together(const Names& effects, std::span<const EffectMarginal> margin
   });
 }
 
+// Whether a law of all wheels keeps its name beside a cause from outside of a known form, of what that
+// leaves: of causes that the library lacks, none looked like such a law beside a force or a sensor's error.
+bool closes_what_form_leaves(const EffectMarginal& marginal, const CauseShares& shares,
+                             const VerdictOptions& options) {
+  return may_be_wheel_law(marginal.name) && marginal.probability >= options.min_probability_closing_most &&
+         marginal.closed_share >= options.min_closed_share &&
+         shares.beside_others(marginal.name) >= options.min_partial_share;
+}
+
 // The most probable candidate of which this holds; none where no such was compared.
 template <class Holds>
 std::optional<std::size_t> candidate_where(const ExplanationSearch& search, const Holds& holds) {
@@ -153,8 +162,8 @@ bool acts_at_a_place(const std::string& cause) {
 }
 
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options) {
-  return marginal.probability >= options.min_probability_beside_form &&
-         marginal.closed_share >= options.min_share_beside_form;
+  return marginal.probability >= options.min_certain_probability &&
+         marginal.closed_share >= options.min_certain_share;
 }
 
 bool may_be_wheel_law(const std::string& effect) {
@@ -196,6 +205,9 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   for (const EffectMarginal& m : marginals)
     if (stands_beside_unknown(m, another_law, options) || (known_form && stands_beside_form(m, options)))
       names.insert(m.name);
+  if (known_form)
+    for (const std::string& effect : library_effects_of(first))
+      if (closes_what_form_leaves(marginal_of(marginals, effect), shares, options)) names.insert(effect);
   if (const Names all = set_of(library_effects_of(first)); stand_together(all, marginals, shares, options))
     names.insert(all.begin(), all.end());
   if (another_law) std::erase_if(names, may_be_wheel_law);

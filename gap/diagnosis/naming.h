@@ -56,8 +56,9 @@ struct Beliefs {
 // effects are named that stand beside it; of several these must stand together in an explanation that was
 // compared. The effects of what was chosen are also named where each of them has min_partial_probability,
 // closes min_closed_share, and closes min_partial_share of what the others leave. Where what was chosen is a
-// cause from outside, so that the unknown has a known form, min_share_beside_form does with
-// min_probability_beside_form, or min_probability_closing_most of an effect that closes min_partial_share.
+// cause from outside, so that the unknown has a known form, min_certain_share does with
+// min_certain_probability, or min_probability_closing_most of an effect that closes min_partial_share; a
+// law of all wheels may close as much of what the cause from outside leaves, and min_closed_share in all.
 // Beside something unknown nothing that may be how another wheel law differs (may_be_wheel_law) is named
 // where what was chosen is bent beyond belief.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
@@ -67,7 +68,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
 // Whether a cause is an effect of the library that acts at a place: a patch of soft soil.
 bool acts_at_a_place(const std::string& cause);
 
-// min_probability_beside_form and min_share_beside_form are reached.
+// min_certain_probability and min_certain_share are reached.
 bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& options);
 
 // Whether an effect could be how another wheel law differs from this one: it changes what ground or gears do

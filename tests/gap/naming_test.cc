@@ -279,6 +279,22 @@ TEST(Naming, BesideACauseOfKnownFormNamesWhatIsMoreProbableThanNotAndClosesMost)
   EXPECT_TRUE(named(search, {{"bulldozing", 0.45, 0.8}}).effects.empty()) << "it is less probable than not";
 }
 
+// Soil that weakens with slip, beside currents that drift (7504 s01): the drift closes 72 % of the gap, and
+// the soil 87 % of what that leaves. An attitude bias beside a push had looked like a load that was withheld.
+TEST(Naming, BesideACauseOfKnownFormNamesALawThatClosesMostOfWhatThatLeaves) {
+  const auto names = [](const std::string& effect, double closed, double of_rest, bool bent = false) {
+    const ExplanationSearch search = search_of({candidate({effect, "current_drift"}, 0.88, false, true),
+                                                candidate({"current_drift"}, 0.12, false, true)});
+    const Beliefs beliefs{[](const Candidate&) { return 0.0; }, [=](const Candidate&) { return bent; }};
+    return named(search, {{effect, 0.88, closed}}, {}, 0.7, of_rest, beliefs).effects.size();
+  };
+  EXPECT_EQ(names("slip_sinkage", 0.26, 0.87), 1U);
+  EXPECT_EQ(names("slip_sinkage", 0.26, 0.17), 0U) << "most of what the drift leaves is something else";
+  EXPECT_EQ(names("slip_sinkage", 0.04, 0.87), 0U) << "it closes next to nothing";
+  EXPECT_EQ(names("slip_sinkage", 0.26, 0.87, true), 0U) << "the wheel law is another one";
+  EXPECT_EQ(names("attitude_bias", 0.26, 0.87), 0U) << "it may be the shadow of what the library lacks";
+}
+
 TEST(Naming, LeavesOutACauseFromOutsideThatClosesNextToNothingBesideEffects) {
   const ExplanationSearch search = search_of({candidate({"soft_patch", "soil_drift"}, 0.52, false, true),
                                               candidate({"soft_patch"}, 0.41), candidate({}, 0.07)});

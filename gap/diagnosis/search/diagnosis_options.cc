@@ -203,7 +203,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
                believable_share, max_stand_in_shift, rival_share, min_doubt, determined_share, max_angle_deg,
                min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
                strong_evidence, min_share_of_law, min_share_of_rest, min_partial_probability,
-               min_partial_share, min_probability_beside_form, min_share_beside_form,
+               min_partial_share, min_certain_probability, min_certain_share,
                min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
@@ -236,8 +236,8 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(min_share_of_rest);
   SLIPWAY_FIELD(min_partial_probability);
   SLIPWAY_FIELD(min_partial_share);
-  SLIPWAY_FIELD(min_probability_beside_form);
-  SLIPWAY_FIELD(min_share_beside_form);
+  SLIPWAY_FIELD(min_certain_probability);
+  SLIPWAY_FIELD(min_certain_share);
   SLIPWAY_FIELD(min_probability_closing_most);
 }
 

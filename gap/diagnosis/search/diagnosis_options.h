@@ -231,12 +231,13 @@ struct VerdictOptions {
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;
-  // What closes less where the rest has a known form, which leaves less to be mistaken for the effect, must
-  // be as good as certain: a cause that the library lacks looks like an effect and a force beside it.
-  double min_probability_beside_form = 0.99;
-  double min_share_beside_form = 0.1;
-  // Of an effect there that closes min_partial_share: what is more probable than not, and closes most, is
-  // named.
+  // What closes less must be as good as certain, and where the rest has no known form no law of all wheels
+  // either: a cause that the library lacks looks like an effect and a force beside it, and another wheel law
+  // like several laws.
+  double min_certain_probability = 0.99;
+  double min_certain_share = 0.1;
+  // Where the rest has a known form, of an effect that closes min_partial_share, or a law of all wheels that
+  // closes as much of what that form leaves: what is more probable than not, and closes most, is named.
   double min_probability_closing_most = 0.5;
 };
 
