@@ -304,6 +304,7 @@ class Diagnoser {
     const SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
     for (std::size_t c = 0; c < selection.share.size(); ++c)
       d_.candidates[c].chosen_share = selection.share[c];
+    judge_resamples(search_, options_.verdict, d_);
     if (!explains()) return {{uncorrected()}, {}};
     if (d_.partial) return {{refitted(prepared_, best_fit(), options_)}, {}};
     return gap::choose_corrections(prepared_, search_, selection, best_, most_believed_, options_);

@@ -173,11 +173,11 @@ bool may_be_wheel_law(const std::string& effect) {
 }
 
 bool stands_beside_unknown(const EffectMarginal& marginal, bool another_law, const VerdictOptions& options) {
-  const bool is_law = may_be_wheel_law(marginal.name);
-  if (is_law && another_law) return false;
+  if (may_be_wheel_law(marginal.name) && another_law) return false;
   return (marginal.probability >= options.min_partial_probability &&
           marginal.closed_share >= options.min_partial_share) ||
-         (!is_law && as_good_as_certain(marginal, options));
+         (!may_be_wheel_law(marginal.name) && marginal.log_evidence >= options.strong_evidence &&
+          marginal.closed_share >= options.min_certain_share);
 }
 
 std::optional<Naming> name_partially(const ExplanationSearch& search, std::size_t chosen,
@@ -203,7 +203,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   const bool another_law = beliefs.are_bent_beyond(first);
   Names names;
   for (const EffectMarginal& m : marginals)
-    if (stands_beside_unknown(m, another_law, options) || (known_form && stands_beside_form(m, options)))
+    if (known_form ? stands_beside_form(m, options) : stands_beside_unknown(m, another_law, options))
       names.insert(m.name);
   if (known_form)
     for (const std::string& effect : library_effects_of(first))

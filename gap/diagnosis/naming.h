@@ -75,9 +75,10 @@ bool as_good_as_certain(const EffectMarginal& marginal, const VerdictOptions& op
 // to all wheels alike, wherever and however warm they turn.
 bool may_be_wheel_law(const std::string& effect);
 
-// Whether an effect may be named beside something unknown: it has min_partial_probability and closes
-// min_partial_share, or is as good as certain and no law of all wheels. `another_law`: what is bent beyond
-// belief says that the wheel law is another one, so that no law of all wheels may be named.
+// Whether an effect may be named beside something of no known form: it has min_partial_probability and closes
+// min_partial_share, or it is no law of all wheels, has strong_evidence and closes min_certain_share.
+// `another_law`: what is bent beyond belief says that the wheel law is another one, so that no law of all
+// wheels may be named.
 bool stands_beside_unknown(const EffectMarginal& marginal, bool another_law, const VerdictOptions& options);
 
 // A partial answer with exactly these names; nothing where no explanation with something unknown has them.

@@ -180,13 +180,19 @@ std::optional<std::string> why_chance(const Candidate& chosen, const Explanation
   return std::nullopt;
 }
 
-void judge_chance(const ExplanationSearch& search, double unknown, const std::string& why,
-                  const VerdictOptions& options, Diagnosis& d) {
+// What is there, if anything, is not surely found: nothing is named.
+void say_not_detected(const ExplanationSearch& search, const VerdictOptions& options, Diagnosis& d) {
   d.least_detectable = least_detectable_of(search.screened, options);
   d.verdict = Verdict::kNotDetected;
+  d.effects.clear();
+  d.overturned_by = "more drives, which show what is there more clearly";
+}
+
+void judge_chance(const ExplanationSearch& search, double unknown, const std::string& why,
+                  const VerdictOptions& options, Diagnosis& d) {
   d.reason =
       fmt::format("no gap was surely found: something unknown has a probability of {:.2f}, {}", unknown, why);
-  d.overturned_by = "more drives, which show what is there more clearly";
+  say_not_detected(search, options, d);
 }
 
 void judge_unknown(const ExplanationSearch& search, std::size_t best, double unknown, Diagnosis& d) {
@@ -291,6 +297,21 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     judge_effects(search, naming, probability, options, d);
     d.effects = found_effects(search.fits[chosen.fit], d.marginals);
   }
+}
+
+void judge_resamples(const ExplanationSearch& search, const VerdictOptions& options, Diagnosis& d) {
+  if (!names_effects(d.verdict) || d.partial) return;
+  double nothing = 0.0;
+  for (const ComparedSet& c : d.candidates)
+    if (c.effects.empty() && !c.with_unknown) nothing += c.chosen_share;
+  if (nothing <= options.max_nothing_share) return;
+  std::vector<std::string> names;
+  for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
+  d.reason = fmt::format(
+      "no gap was surely found: with {} the drives are more probable, but had other drives of the same kinds "
+      "been made, {:.0f} % of such campaigns would show nothing missing",
+      fmt::join(names, " and "), 100.0 * nothing);
+  say_not_detected(search, options, d);
 }
 
 }  // namespace slipway::gap

@@ -26,6 +26,10 @@ double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOpti
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
            const Naming& naming, const DiagnosisOptions& options, Diagnosis& d);
 
+// Effects are not surely found, and not named, where more than VerdictOptions::max_nothing_share of the
+// resampled campaigns show nothing missing; a partial answer stays. d's candidates have their chosen_share.
+void judge_resamples(const ExplanationSearch& search, const VerdictOptions& options, Diagnosis& d);
+
 // The cause from outside that a candidate has, with its parameters; nothing, where it has none.
 std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, std::size_t candidate,
                                               const DriveCampaign& campaign);

@@ -73,7 +73,7 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
 }
 
-// A shifted load as good as certain keeps its name beside a law of all wheels that loses its own.
+// A shifted load of strong evidence keeps its name beside a law of all wheels that loses its own.
 TEST(Verdict, KeepsTheNamesThatStandWhereOthersFall) {
   DriveCampaign campaign;
   campaign.soils.resize(1);
@@ -81,7 +81,7 @@ TEST(Verdict, KeepsTheNamesThatStandWhereOthersFall) {
   reported.x = reported.hypothesis.neutral();
   Diagnosis d = answer_with(Verdict::kEffects, 2.2, "com_offset");
   d.effects.push_back({"multipass", "", 0.95, {}});
-  d.marginals = {{.name = "com_offset", .probability = 0.999, .closed_share = 0.31},
+  d.marginals = {{.name = "com_offset", .probability = 0.91, .closed_share = 0.31, .log_evidence = 63.0},
                  {.name = "multipass", .probability = 1.0, .closed_share = 0.4}};
   const auto doubt = doubt_of({reported, 0.7, 100.0, {}}, VerdictOptions{}, d);
   ASSERT_TRUE(doubt);
@@ -131,6 +131,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
                            const std::string& effect = "dragging_wheel") {
     Diagnosis d = answer_with(verdict, 1.0, effect);
     d.marginals.front() = {.name = effect, .probability = probability, .closed_share = closed_share};
+    if (probability > 0.99) d.marginals.front().log_evidence = 200.0;
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
     doubt_answer({reported, closed_share, 100.0, scatter}, VerdictOptions{}, d);
     return d;
@@ -147,7 +148,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   const Diagnosis little = doubted(Verdict::kEffects, 3.3, 0.1);
   EXPECT_EQ(little.verdict, Verdict::kUnknown);
   EXPECT_TRUE(little.effects.empty());
-  EXPECT_TRUE(doubted(Verdict::kEffects, 3.3, 0.2, 0.999).partial) << "it is as good as certain";
+  EXPECT_TRUE(doubted(Verdict::kEffects, 3.3, 0.2, 0.999).partial) << "its evidence is strong";
   const Diagnosis nothing = doubted(Verdict::kEffects, 3.3, 0.05, 0.999);
   EXPECT_EQ(nothing.verdict, Verdict::kUnknown);
   EXPECT_NE(nothing.reason.find("closes 5 %"), std::string::npos) << nothing.reason;
@@ -180,13 +181,14 @@ class SoilBeyondBelief : public ::testing::Test {
     Diagnosis d = answer_with(verdict, 1.0, effect);
     d.marginals.front().probability = probability;
     d.marginals.front().closed_share = closed_share;
+    if (probability > 0.99) d.marginals.front().log_evidence = 200.0;
     doubt_answer({fit_with(shift), closed_share, 100.0, {}}, VerdictOptions{}, d);
     return d;
   }
   DriveCampaign campaign_;
 };
 
-TEST_F(SoilBeyondBelief, TakesNamesBackThatAreNotAsGoodAsCertain) {
+TEST_F(SoilBeyondBelief, TakesNamesBackWhoseEvidenceIsNotStrong) {
   const Diagnosis near = doubted({0.0, 4.7, 2.0});
   EXPECT_EQ(near.verdict, Verdict::kEffects) << "5.1 deviations";
   EXPECT_FALSE(near.partial);
@@ -195,7 +197,7 @@ TEST_F(SoilBeyondBelief, TakesNamesBackThatAreNotAsGoodAsCertain) {
   EXPECT_TRUE(bent.effects.empty());
   EXPECT_NE(bent.reason.find("5.5 deviations"), std::string::npos) << bent.reason;
   EXPECT_NE(bent.reason.find("cohesion/bedrock alone -4.7"), std::string::npos) << bent.reason;
-  EXPECT_TRUE(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999).partial) << "it is as good as certain";
+  EXPECT_TRUE(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999).partial) << "its evidence is strong";
   EXPECT_EQ(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999, "hardpan").verdict, Verdict::kUnknown)
       << "another wheel law would look like this one";
   EXPECT_EQ(doubted({0.0, -4.7, 2.8}, Verdict::kParameters).verdict, Verdict::kParameters)
@@ -244,6 +246,7 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
         reported.x[p] = deviations * reported.hypothesis.parameters()[p].std;
     Diagnosis d = answer_with(verdict, 1.0, effect);
     d.marginals.front().probability = probability;
+    if (probability > 0.99) d.marginals.front().log_evidence = 200.0;
     doubt_answer({reported, 0.4, 100.0, {}}, VerdictOptions{}, d);
     return d;
   };
@@ -254,7 +257,7 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
     EXPECT_NE(bent.reason.find("c1 would be"), std::string::npos) << bent.reason;
   }
   EXPECT_EQ(doubted(7.0, Verdict::kEffects, 0.9).verdict, Verdict::kUnknown);
-  EXPECT_TRUE(doubted(7.0, Verdict::kEffects, 1.0).partial) << "it is as good as certain";
+  EXPECT_TRUE(doubted(7.0, Verdict::kEffects, 1.0).partial) << "its evidence is strong";
   EXPECT_EQ(doubted(7.0, Verdict::kEffects, 1.0, "multipass").verdict, Verdict::kUnknown)
       << "another wheel law would look like this one";
 }

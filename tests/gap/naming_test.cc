@@ -64,17 +64,18 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
   EXPECT_FALSE(named(search, {{"dragging_wheel", 0.98, 0.2}}).partial);
 }
 
-// Drives of another physics without a reference (7411 s01): a shifted load was in all explanations and closed
+// Drives of another physics without a reference (7411 s01): a shifted load with a log evidence of 315 closed
 // 31 %, beside a multipass that was another wheel law and something else.
-TEST(Naming, NamesWhatIsAsGoodAsCertainAndNoLawOfAllWheelsBesideAnUnknownCause) {
-  const auto names = [](const std::string& effect, double closed) {
+TEST(Naming, NamesWhatHasStrongEvidenceAndIsNoLawOfAllWheelsBesideAnUnknownCause) {
+  const auto names = [](const std::string& effect, double closed, double evidence) {
     const ExplanationSearch search =
         search_of({candidate({"multipass", effect}, 0.9, true), candidate({effect}, 0.1, true)});
-    return named(search, {{"multipass", 0.9, 0.4}, {effect, 0.999, closed}}).effects;
+    return named(search, {{"multipass", 0.9, 0.4, 500.0}, {effect, 0.85, closed, evidence}}).effects;
   };
-  EXPECT_EQ(names("com_offset", 0.31), std::vector<std::string>{"com_offset"});
-  EXPECT_TRUE(names("com_offset", 0.09).empty()) << "it closes next to nothing";
-  EXPECT_TRUE(names("gearbox_friction", 0.31).empty()) << "another law would look like it";
+  EXPECT_EQ(names("com_offset", 0.31, 63.0), std::vector<std::string>{"com_offset"});
+  EXPECT_TRUE(names("com_offset", 0.31, 38.0).empty()) << "a shadow, perhaps";
+  EXPECT_TRUE(names("com_offset", 0.09, 63.0).empty()) << "it closes next to nothing";
+  EXPECT_TRUE(names("gearbox_friction", 0.31, 63.0).empty()) << "another law would look like it";
 }
 
 // 6201 s04: both effects of a pair were in all explanations, and something else besides.
@@ -102,7 +103,8 @@ TEST(Naming, NamesNoWheelLawBesideAnUnknownCauseWhereWhatWasChosenIsBentBeyondBe
                  candidate({"multipass"}, 0.04, true), candidate({}, 0.01)});
   const auto names = [&](bool beyond) {
     const Beliefs beliefs{[](const Candidate&) { return 0.0; }, [=](const Candidate&) { return beyond; }};
-    return named(search, {{"com_offset", 0.999, 0.32}, {"multipass", 0.998, 0.38}}, {}, 1.0, 0.6, beliefs);
+    return named(search, {{"com_offset", 0.999, 0.32, 205.0}, {"multipass", 0.998, 0.38, 400.0}}, {}, 1.0,
+                 0.6, beliefs);
   };
   EXPECT_EQ(names(false).effects, (std::vector<std::string>{"com_offset", "multipass"}));
   EXPECT_EQ(names(true).effects, std::vector<std::string>{"com_offset"});
@@ -211,9 +213,10 @@ TEST(Naming, OfAnotherWheelLawKeepsWhatIsNoLawOfAllWheels) {
   const ExplanationSearch search =
       search_of({candidate({"dragging_wheel", "multipass"}, 0.99), candidate({"dragging_wheel"}, 0.01)});
   const Beliefs bent{[](const Candidate&) { return 0.0; }, [](const Candidate&) { return true; }};
-  EXPECT_EQ(
-      named(search, {{"dragging_wheel", 1.0, 0.58}, {"multipass", 1.0, 0.19}}, {}, 1.0, 0.0, bent).effects,
-      kDrag);
+  EXPECT_EQ(named(search, {{"dragging_wheel", 1.0, 0.58, 150.0}, {"multipass", 1.0, 0.19, 90.0}}, {}, 1.0,
+                  0.0, bent)
+                .effects,
+            kDrag);
 }
 
 TEST(Naming, AnotherWheelLawMayBeAnyLawThatAllWheelsHave) {

@@ -152,6 +152,33 @@ TEST(Verdict, IsNotDetectedWhereSomethingUnknownMayBeChance) {
   EXPECT_EQ(judged(least + 0.01, evidence + 0.5), Verdict::kUnknown);
   EXPECT_EQ(judged(least + 0.01, evidence - 0.5), Verdict::kNotDetected);
   EXPECT_EQ(judged(least - 0.01, evidence + 0.5), Verdict::kNotDetected);
+  EXPECT_EQ(judged(0.50, 25.8), Verdict::kNotDetected) << "healthy drives, 7311 s07";
+}
+
+// 7401 s11: motors that change with the temperature had a probability of 0.82 on healthy drives, and a
+// quarter of the resampled campaigns showed nothing missing.
+TEST(Verdict, IsNotDetectedWhereResampledDrivesOftenShowNothingMissing) {
+  const auto judged = [](double nothing, bool partial) {
+    Diagnosis d;
+    d.verdict = Verdict::kEffects;
+    d.partial = partial;
+    d.effects.push_back({"motor_temperature", "", 0.82, {}});
+    d.candidates.resize(3);
+    d.candidates[0].effects = {"motor_temperature"};
+    d.candidates[0].chosen_share = 0.97 - nothing;
+    d.candidates[1].chosen_share = nothing;
+    d.candidates[2].with_unknown = true;
+    d.candidates[2].chosen_share = 0.03;
+    judge_resamples({}, VerdictOptions{}, d);
+    return d;
+  };
+  EXPECT_EQ(judged(0.08, false).verdict, Verdict::kEffects);
+  EXPECT_EQ(judged(0.26, true).verdict, Verdict::kEffects) << "something is missing beside it";
+  const Diagnosis chance = judged(0.26, false);
+  EXPECT_EQ(chance.verdict, Verdict::kNotDetected);
+  EXPECT_TRUE(chance.effects.empty());
+  EXPECT_NE(chance.reason.find("26 %"), std::string::npos) << chance.reason;
+  EXPECT_NE(chance.reason.find("motor_temperature"), std::string::npos) << chance.reason;
 }
 
 }  // namespace

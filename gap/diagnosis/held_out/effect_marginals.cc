@@ -75,11 +75,15 @@ std::vector<EffectMarginal> effect_marginals(std::span<const std::string> librar
                                              const ExplanationSearch& search, const ClosedShares& shares) {
   std::vector<EffectMarginal> marginals;
   for (const std::string& effect : library) {
-    double probability = 0.0;
-    for (const Candidate& c : search.candidates)
-      if (std::find(c.effects.begin(), c.effects.end(), effect) != c.effects.end())
-        probability += c.probability;
-    marginals.push_back({effect, probability, shares.of(effect)});
+    double probability = 0.0, with = kAnyEvidence, without = kAnyEvidence;
+    for (const Candidate& c : search.candidates) {
+      const bool has = std::find(c.effects.begin(), c.effects.end(), effect) != c.effects.end();
+      if (has) probability += c.probability;
+      double& best = has ? with : without;
+      best = std::max(best, c.log_evidence);
+    }
+    marginals.push_back({effect, probability, shares.of(effect),
+                         with > kAnyEvidence && without > kAnyEvidence ? with - without : 0.0});
   }
   std::stable_sort(marginals.begin(), marginals.end(), [](const EffectMarginal& a, const EffectMarginal& b) {
     return a.probability != b.probability ? a.probability > b.probability : a.closed_share > b.closed_share;

@@ -199,11 +199,11 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               min_unknown_evidence, min_unknown_probability, max_soil_shift, max_closure_shift,
-               believable_share, max_stand_in_shift, rival_share, min_doubt, determined_share, max_angle_deg,
-               min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
-               strong_evidence, min_share_of_law, min_share_of_rest, min_partial_probability,
-               min_partial_share, min_certain_probability, min_certain_share,
+               min_unknown_evidence, min_unknown_probability, max_nothing_share, max_soil_shift,
+               max_closure_shift, believable_share, max_stand_in_shift, rival_share, min_doubt,
+               determined_share, max_angle_deg, min_signature, max_unexplained_shapes, name_by_marginals,
+               min_closed_share, min_named_share, strong_evidence, min_share_of_law, min_share_of_rest,
+               min_partial_probability, min_partial_share, min_certain_probability, min_certain_share,
                min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
@@ -218,6 +218,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_scatter);
   SLIPWAY_FIELD(min_unknown_evidence);
   SLIPWAY_FIELD(min_unknown_probability);
+  SLIPWAY_FIELD(max_nothing_share);
   SLIPWAY_FIELD(max_soil_shift);
   SLIPWAY_FIELD(max_closure_shift);
   SLIPWAY_FIELD(believable_share);
