@@ -43,7 +43,8 @@ namespace {
 DiagnosisOptions with_reference(DiagnosisOptions options) {
   for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
   VerdictOptions& verdict = options.verdict;
-  verdict.min_closed_share = std::max(verdict.min_closed_share, options.reference.min_closed_share);
+  for (double* const closed : {&verdict.min_closed_share, &verdict.min_certain_share})
+    *closed = std::max(*closed, options.reference.min_closed_share);
   for (double* const left : {&verdict.max_left_of_nothing, &verdict.max_left_beside_effects})
     *left = std::max(*left, options.reference.max_left);
   verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
@@ -51,7 +52,8 @@ DiagnosisOptions with_reference(DiagnosisOptions options) {
 }
 
 // Fractions of a diagnosis that are done by then.
-constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79;
+constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79, kHeldOut = 0.95,
+                 kHeldOutAgain = 0.96;
 
 class Diagnoser {
  public:
@@ -300,41 +302,47 @@ class Diagnoser {
     }
   }
 
-  CorrectionChoice choose_corrections(const DriveResampling& drives) {
-    const SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
+  // Which sets resampled drives choose, and what that says of the names.
+  SelectionBootstrap resample(const DriveResampling& drives) {
+    SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
     for (std::size_t c = 0; c < selection.share.size(); ++c)
       d_.candidates[c].chosen_share = selection.share[c];
     judge_resamples(search_, options_.verdict, d_);
+    return selection;
+  }
+
+  CorrectionChoice choose_corrections(const SelectionBootstrap& selection) const {
     if (!explains()) return {{uncorrected()}, {}};
     if (d_.partial) return {{refitted(prepared_, best_fit(), options_)}, {}};
     return gap::choose_corrections(prepared_, search_, selection, best_, most_believed_, options_);
   }
 
   // What drives held out of the fit are told with the corrections and without.
-  Result<GapClosure> hold_out(const CorrectionChoice& choice, const DriveResampling& drives) {
-    auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
+  Result<GapClosure> hold_out(const CorrectionChoice& choice, const DriveResampling& drives,
+                              Progress& progress) {
+    auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress);
     if (!closure) return fail(closure.error());
-    d_.gap = std::move(closure->channels);
+    d_.gap = closure->channels;
     d_.planners_view = closure->planners_view;
-    d_.held_out = std::move(closure->points);
-    d_.window_gaps = std::move(closure->windows);
+    d_.held_out = closure->points;
+    d_.window_gaps = closure->windows;
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     return closure;
   }
 
-  // Names some of the effects alone; whether an explanation with these was compared.
+  // Names some of the effects alone, as they were fitted without the others; whether they were.
   bool name_only(std::span<const std::string> names) {
     const auto naming = name_partially(search_, naming_.chosen, names);
     if (!naming) return false;
     naming_ = *naming;
     best_ = naming_.correction;
-    d_.effects = found_effects(search_.fits[search_.candidates[naming_.candidate].fit], d_.marginals);
+    d_.effects = found_effects(best_fit(), d_.marginals);
     return true;
   }
 
   Result<void> close_gap(const DriveResampling& drives) {
-    CorrectionChoice choice = choose_corrections(drives);
-    auto closure = hold_out(choice, drives);
+    CorrectionChoice choice = choose_corrections(resample(drives));
+    auto closure = hold_out(choice, drives, progress_);
     if (!closure) return fail(closure.error());
     const double log_evidence = evidence_over_nothing(best(), search_.candidates);
     withdraw_what_tells_no_better(closure->log_density_gain, log_evidence, options_.verdict, d_);
@@ -343,7 +351,8 @@ class Diagnoser {
     if (doubt && !doubt->standing.empty() && !doubt->fallen.empty()) {
       if (name_only(doubt->standing)) {
         choice = {{refitted(prepared_, best_fit(), options_)}, {}};
-        closure = hold_out(choice, drives);
+        PartOfProgress again(progress_, kHeldOut, kHeldOutAgain);
+        closure = hold_out(choice, drives, again);
         if (!closure) return fail(closure.error());
       } else {
         for (std::string& name : std::exchange(doubt->standing, {})) doubt->fallen.push_back(std::move(name));

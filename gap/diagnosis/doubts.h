@@ -73,6 +73,7 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
                               const Diagnosis& d);
 
 // Takes the answer back to a partial one with the names that stand, or to `unknown` where there are none.
+// What d has of drives held out is to be without the names that fell where others stand.
 void apply_doubt(const Doubt& doubt, const VerdictOptions& options, Diagnosis& d);
 
 // Where readings are implausible, as these notes say (reading_plausibility.h), that nothing is missing is

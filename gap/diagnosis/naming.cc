@@ -34,8 +34,9 @@ bool stand_together(const Names& effects, std::span<const EffectMarginal> margin
   });
 }
 
-// Whether a law of all wheels keeps its name beside a cause from outside of a known form, of what that
-// leaves: of causes that the library lacks, none looked like such a law beside a force or a sensor's error.
+// Whether a law of all wheels keeps its name beside a cause from outside of a known form: it closes most of
+// what is left to it in the most probable explanation that has it. Of causes that the library lacks, none
+// looked like such a law beside a force or a sensor's error.
 bool closes_what_form_leaves(const EffectMarginal& marginal, const CauseShares& shares,
                              const VerdictOptions& options) {
   return may_be_wheel_law(marginal.name) && marginal.probability >= options.min_probability_closing_most &&
@@ -130,7 +131,7 @@ std::size_t not_bent(const ExplanationSearch& search, std::size_t chosen, const 
 }
 
 // Of several known causes of an explanation that is bent beyond belief those that are as good as certain,
-// where nothing is bent with them alone, and otherwise those of them that stand there.
+// where nothing is bent with them alone, and otherwise those that stand beside something unknown.
 std::size_t of_belief(const ExplanationSearch& search, std::size_t chosen,
                       std::span<const EffectMarginal> marginals, const Beliefs& beliefs,
                       const VerdictOptions& options) {

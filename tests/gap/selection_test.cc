@@ -155,8 +155,8 @@ TEST(Verdict, IsNotDetectedWhereSomethingUnknownMayBeChance) {
   EXPECT_EQ(judged(0.50, 25.8), Verdict::kNotDetected) << "healthy drives, 7311 s07";
 }
 
-// 7401 s11: motors that change with the temperature had a probability of 0.82 on healthy drives, and a
-// quarter of the resampled campaigns showed nothing missing.
+// 7401 s11: motors that change with the temperature had a probability of 0.82 on drives whose soils
+// were mis-set, and a quarter of the resampled campaigns showed nothing missing.
 TEST(Verdict, IsNotDetectedWhereResampledDrivesOftenShowNothingMissing) {
   const auto judged = [](double nothing, bool partial) {
     Diagnosis d;

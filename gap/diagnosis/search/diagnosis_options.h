@@ -194,8 +194,8 @@ struct VerdictOptions {
   // outside.
   double min_unknown_probability = 0.6;
   // Share of the resampled campaigns that show nothing missing, beyond which named effects may be chance. Of
-  // some 100 right answers to sealed campaigns none came to more than 0.08; healthy drives with a false name
-  // came to 0.26.
+  // some 100 right answers to sealed campaigns none came to more than 0.08; drives on mis-set soils, with a
+  // false name, came to 0.26.
   double max_nothing_share = 0.15;
   // Usual prior deviations by which a soil may be off what was believed of it beside named effects, all of
   // its parameters and the ratio of its shear moduli together, without a reference. A cause that the library
