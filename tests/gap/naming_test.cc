@@ -60,8 +60,8 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
   const ExplanationSearch search =
       search_of({candidate({"dragging_wheel"}, 0.6, true), candidate({}, 0.3, true), candidate({}, 0.1)});
   EXPECT_TRUE(named(search, {{"dragging_wheel", 0.6, 0.9}}).effects.empty()) << "a shadow, perhaps";
-  EXPECT_TRUE(named(search, {{"dragging_wheel", 0.98, 0.2}}).effects.empty()) << "most is something else";
-  EXPECT_FALSE(named(search, {{"dragging_wheel", 0.98, 0.2}}).partial);
+  EXPECT_TRUE(named(search, {{"dragging_wheel", 0.99, 0.2}}).effects.empty()) << "most is something else";
+  EXPECT_FALSE(named(search, {{"dragging_wheel", 0.99, 0.2}}).partial);
 }
 
 // Drives of another physics without a reference (7411 s01): a shifted load with a log evidence of 315 closed
