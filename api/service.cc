@@ -18,8 +18,7 @@
 #include "api/maps/map_documents.h"
 #include "api/request_check.h"
 #include "gap/diagnosis/reference_diagnosis.h"
-#include "planner/judge/drive_decision.h"
-#include "planner/judge/trespass.h"
+#include "planner/judge/drive_verdict.h"
 #include "planner/make_plan.h"
 #include "planner/predict_path.h"
 #include "planner/search/stage_progress.h"
@@ -226,22 +225,23 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.path.front();
   problem.goal = request.path.back();
-  auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
-  if (!prediction) return fail(prediction.error());
-  planner::DriveDecision decision = planner::decide(problem, *prediction);
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
-  planner::forbid_trespass(problem, planner::path_motions(request.path, request.manner), decision);
-  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
-    return fail(whole.error());
-  PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt,
-                          std::move(decision)};
+  auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
+  if (!prediction) return fail(prediction.error());
+  PredictionAnswer answer{request, {}, std::move(*prediction), std::nullopt, {}};
   if (request.level == FidelityLevel::kDynamic) {
     planner::StageProgress stage(progress, "verifying by dynamics", 0.3, 1.0);
     auto dynamic = planner::verify_path(problem, request.path, answer.prediction, stage, request.manner);
     if (!dynamic) return fail(dynamic.error());
     answer.dynamic = std::move(*dynamic);
   }
+  answer.decision =
+      planner::judge_motions(problem, planner::path_motions(request.path, request.manner), request.manner,
+                             answer.prediction, answer.dynamic ? &*answer.dynamic : nullptr, progress);
+  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
+  answer.provenance = std::move(setting->provenance);
   return answer;
 }
 
@@ -260,12 +260,12 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
   }
   auto setting = set_up(request.terrain, request.rover, places, request.drive, progress);
   if (!setting) return fail(setting.error());
-  auto prediction = planner::predict_motions(setting->problem, motions, progress, request.manner);
-  if (!prediction) return fail(prediction.error());
-  planner::DriveDecision decision = planner::decide(setting->problem, *prediction);
   setting->problem.keep_out = request.keep_out;
   setting->problem.keep_in = request.keep_in;
-  planner::forbid_trespass(setting->problem, motions, decision);
+  auto prediction = planner::predict_motions(setting->problem, motions, progress, request.manner);
+  if (!prediction) return fail(prediction.error());
+  planner::DriveVerdict decision =
+      planner::judge_motions(setting->problem, motions, request.manner, *prediction, nullptr, progress);
   if (auto whole = account_for_tiles(*setting->problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};

@@ -207,7 +207,7 @@ class Planning {
       differences.add(centreline(candidate.motions, kLineSpacing_m));
       if (std::none_of(routes.begin(), routes.end(),
                        [&](const Route& other) { return ranks_before(other, route); }))
-        tell_found(progress_, candidate.motions, route.ranked_cost, describe(route.verdict));
+        tell_found(progress_, candidate.motions, route.ranked_cost, describe(route.verdict()));
       routes.push_back(std::move(route));
       candidate_of.push_back(list[k]);
     }

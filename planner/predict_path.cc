@@ -7,6 +7,8 @@
 #include <string>
 
 #include "core/angle.h"
+#include "planner/judge/advice.h"
+#include "planner/judge/drive_verdict.h"
 #include "planner/judge/route_stations.h"
 #include "planner/judge/verify_route.h"
 #include "planner/problem/motion.h"
@@ -136,6 +138,17 @@ std::vector<Motion> command_motions(const Pose2& start, const std::vector<DriveS
 Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const std::vector<Motion>& motions,
                                              Progress& progress, const Manner& manner) {
   return predict_stations(problem, stations_of(problem, motions, manner), progress);
+}
+
+DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>& motions,
+                           const Manner& manner, const sim::DrivePrediction& prediction,
+                           const DynamicVerification* dynamic, Progress& progress) {
+  DriveVerdict verdict = judge_drive(problem, prediction, {.motions = &motions, .dynamic = dynamic});
+  auto shorter =
+      shorter_drive(problem, stations_of(problem, motions, manner), prediction, verdict, progress);
+  for (auto&& advice : {std::move(shorter), scout_drive(problem, prediction, verdict)})
+    if (advice) verdict.advice.push_back(*advice);
+  return verdict;
 }
 
 Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypoint>& corners,

@@ -7,6 +7,7 @@
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/motion.h"
 #include "planner/problem/problem.h"
+#include "planner/problem/verdict.h"
 
 namespace slipway::planner {
 
@@ -31,6 +32,13 @@ Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const s
 // Errors: off_map, no_data with the corner or place ("/path/3").
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress, const Manner& manner = {});
+
+// Judges the drive along motions of which predict_motions() gave `prediction`, and says what would make it
+// better. `dynamic` is the same drive in motion, where there is one. The motions are by the direction of
+// travel.
+DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>& motions,
+                           const Manner& manner, const sim::DrivePrediction& prediction,
+                           const DynamicVerification* dynamic, Progress& progress);
 
 // Conditions draws of the ground on a drive of the past along a path, the problem's rover having driven it by
 // the problem's limits; see sim::condition_draws(). Errors as predict_path().

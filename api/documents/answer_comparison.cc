@@ -46,7 +46,7 @@ class Answer {
     return figure_of(at(*route.figures, key));
   }
 
-  // Of a route of a plan "go", "caution" or "no_go"; of one drive that of its decision.
+  // "go", "no_go" or "unknown".
   const std::string& verdict(const AnsweredRoute& route) const {
     for (const JsonValue* const at_place : {route.figures, &document_, &at(document_, "decision")})
       if (has(*at_place, "verdict")) return text(*at_place, "verdict");

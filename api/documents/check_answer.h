@@ -13,7 +13,7 @@ namespace slipway::api::json {
 std::string write_check_answer(const CheckAnswer& answer, StationDetail detail = StationDetail::kThinned);
 
 // "decision": the verdict with its reasons.
-void write_decision(Writer& w, const planner::DriveDecision& decision);
+void write_decision(Writer& w, const planner::DriveVerdict& decision);
 
 // "outcomes": stops and embeddings by rule, ground and stretch.
 void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,

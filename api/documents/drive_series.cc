@@ -7,6 +7,7 @@
 #include "api/files/relief_values.h"
 #include "core/angle.h"
 #include "core/version.h"
+#include "planner/judge/verdict_words.h"
 
 namespace slipway::api::json {
 namespace {
@@ -44,6 +45,9 @@ constexpr std::array kColumns{
     Column{"slip_p05", [](const StationPrediction& s) { return s.slip_ratio_p05; }},
     Column{"slip_p50", [](const StationPrediction& s) { return s.slip_ratio_p50; }},
     Column{"slip_p95", [](const StationPrediction& s) { return s.slip_ratio_p95; }},
+    Column{"aside_m", [](const StationPrediction& s) { return s.aside_m; }},
+    Column{"aside_m_p05", [](const StationPrediction& s) { return s.aside_m_p05; }},
+    Column{"aside_m_p95", [](const StationPrediction& s) { return s.aside_m_p95; }},
     Column{"side_slip_deg", [](const StationPrediction& s) { return deg_from_rad(s.state.side_slip_rad); }},
     Column{"yaw_rate_deg_s", [](const StationPrediction& s) { return deg_from_rad(s.state.yaw_rate_rad_s); }},
     Column{"left_rut_depth_m", [](const StationPrediction& s) { return s.state.left_rut_depth_m; }, true},
@@ -141,14 +145,29 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   } else {
     w.null();
   }
-  w.texts("broken_limits", p.broken_limits);
+  write_broken_limits(w, p.broken_limits);
   w.key("risk").begin_object().significant("value", p.risk).significant("low", p.risk_low);
   w.significant("high", p.risk_high).significant("immobilised", p.risk_immobilised).whole("draws", p.draws);
   w.key("worst_place").begin_object().significant("value", p.worst_place.value);
   w.metres("at_m", p.worst_place.distance_m).end_object().end_object();
   write_share(w, "stop", p.outcomes.stop);
+  w.key("worst_halt");
+  const sim::RuleRisk* const worst = planner::main_halt(p);
+  if (worst != nullptr && worst->station < p.stations.size())
+    w.begin_object()
+        .text("rule", sim::describe(worst->rule))
+        .metres("at_m", p.stations[worst->station].station.distance_m)
+        .end_object();
+  else
+    w.null();
   write_share(w, "embedding", p.outcomes.embedding);
   w.significant("expected_stops", p.outcomes.expected_stops);
+}
+
+void write_broken_limits(Writer& w, const std::vector<sim::BrokenLimit>& broken) {
+  std::vector<std::string> words;
+  for (const sim::BrokenLimit& each : broken) words.push_back(sim::describe(each));
+  w.texts("broken_limits", words);
 }
 
 void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share) {

@@ -37,6 +37,9 @@ void write_line(Writer& w, const sim::DrivePrediction& prediction, const std::ve
 
 void write_provenance(Writer& w, const Provenance& provenance);
 
+// "broken_limits": a line each, in words.
+void write_broken_limits(Writer& w, const std::vector<sim::BrokenLimit>& broken);
+
 // A share of the draws with its interval.
 void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share);
 

@@ -73,7 +73,7 @@ void write_figures(Writer& w, const DynamicVerification& d) {
   write_peak(w, "max_tilt_deg", d.extremes.max_tilt_rad, deg_from_rad(1.0));
   write_peak(w, "max_current_a", d.extremes.max_current_a);
   write_peak(w, "max_sinkage_m", d.extremes.max_sinkage_m);
-  w.texts("broken_limits", d.broken_limits);
+  write_broken_limits(w, d.broken_limits);
   w.key("less_quasi_static").begin_object().metres("compared_m", d.compared_m);
   write_difference(w, "slip", d.slip_ratio);
   write_difference(w, "sinkage_m", d.sinkage_m);

@@ -16,7 +16,7 @@ namespace {
 // properties.
 void write_judged_route(Writer& w, const planner::Route& route) {
   w.whole("rank", route.rank).text("planner", route.planner).text("profile", route.profile);
-  w.text("verdict", planner::describe(route.verdict)).texts("reasons", route.reasons);
+  w.text("verdict", planner::describe(route.verdict())).texts("reasons", route.reasons);
   w.boolean("pareto", route.pareto).significant("cost", route.cost);
   w.key("cost_shares").begin_array();
   for (const planner::CostShare& share : route.shares) {

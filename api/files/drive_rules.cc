@@ -1,5 +1,9 @@
 #include "api/files/drive_rules.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 
@@ -9,11 +13,12 @@ namespace {
 void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
   auto object = reader.object("limits", kOptional);
   if (!object) return;
-  object->number("max_slip", kOptional, {"1", 0.0, 1.0, true}, limits.max_slip_ratio);
-  object->angle_deg("max_tilt_deg", kOptional, {"deg", 0.0, 60.0, true}, limits.max_tilt_rad);
-  object->number("max_current_a", kOptional, {"A", 0.0, 100.0, true}, limits.max_current_a);
-  object->number("max_sinkage_m", kOptional, {"m", 0.0, 1.0, true}, limits.max_sinkage_m);
-  object->number("min_clearance_m", kOptional, {"m", 0.0, 2.0}, limits.min_clearance_m);
+  for (const sim::RuleRow& row : sim::rule_catalogue()) {
+    if (!row.limit) continue;
+    double value = 0.0;
+    if (object->number(row.key, kOptional, {row.unit, row.least, row.most, !row.least_allowed}, value))
+      limits.*row.limit = value / row.factor;
+  }
   object->refuse_unknown();
 }
 
@@ -31,7 +36,15 @@ void read_bars(ObjectReader& reader, sim::OutcomeBars& bars) {
   auto object = reader.object("bars", kOptional);
   if (!object) return;
   object->number("max_embedding", kOptional, {"1", 0.0, 1.0, true}, bars.max_embedding);
-  object->number("max_expected_stops", kOptional, {"1", 0.0, 1000.0, true}, bars.max_expected_stops);
+  object->number("max_immobilised", kOptional, {"1", 0.0, 1.0, true}, bars.max_immobilised);
+  object->number("max_stop", kOptional, {"1", 0.0, 1.0, true}, bars.max_stop);
+  object->number("no_go_stop", kOptional, {"1", 0.0, 1.0, true}, bars.no_go_stop);
+  if (object->member("max_expected_stops", kOptional) != nullptr)
+    object->fault("max_expected_stops",
+                  "is no bar any more: max_stop is the probability of a halt below which a drive is a GO, "
+                  "no_go_stop the one above which it is a NO-GO");
+  if (bars.no_go_stop < bars.max_stop)
+    object->fault("no_go_stop", "no_go_stop must be at least max_stop");
   object->refuse_unknown();
 }
 
@@ -45,11 +58,9 @@ void read_drive_rules(ObjectReader& reader, DriveRules& rules) {
 
 void write_drive_rules(Writer& w, const DriveRules& rules) {
   w.key("limits").begin_object();
-  w.exact("max_slip", rules.limits.max_slip_ratio);
-  w.angle_deg("max_tilt_deg", rules.limits.max_tilt_rad);
-  w.exact("max_current_a", rules.limits.max_current_a);
-  w.exact("max_sinkage_m", rules.limits.max_sinkage_m);
-  w.exact("min_clearance_m", rules.limits.min_clearance_m);
+  for (const sim::RuleRow& row : sim::rule_catalogue())
+    if (row.limit && std::isfinite(rules.limits.*row.limit))
+      w.key(row.key).raw(fmt::format("{:.12g}", rules.limits.*row.limit * row.factor));
   w.end_object();
   w.key("checks").begin_object();
   w.exact("slip_check_every_m", rules.checks.slip_check_every_m);
@@ -59,7 +70,9 @@ void write_drive_rules(Writer& w, const DriveRules& rules) {
   w.end_object();
   w.key("bars").begin_object();
   w.exact("max_embedding", rules.bars.max_embedding);
-  w.exact("max_expected_stops", rules.bars.max_expected_stops);
+  w.exact("max_immobilised", rules.bars.max_immobilised);
+  w.exact("max_stop", rules.bars.max_stop);
+  w.exact("no_go_stop", rules.bars.no_go_stop);
   w.end_object();
 }
 

@@ -141,8 +141,7 @@ dem::RasterLayer map_layer(const MapRequest& request, const Provenance& provenan
   }
   if (request.kind == MapKind::kVerdict) {
     metadata.emplace_back("SLIPWAY_MAX_EMBEDDING", fmt::format("{}", problem.risk.bars.max_embedding));
-    metadata.emplace_back("SLIPWAY_MAX_EXPECTED_STOPS",
-                          fmt::format("{}", problem.risk.bars.max_expected_stops));
+    metadata.emplace_back("SLIPWAY_MAX_STOP", fmt::format("{}", problem.risk.bars.max_stop));
   }
   return layer;
 }

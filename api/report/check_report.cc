@@ -10,9 +10,9 @@
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
-#include "api/report/check_advice.h"
 #include "api/report/check_charts.h"
 #include "api/report/route_map.h"
+#include "planner/problem/verdict.h"
 
 namespace slipway::api {
 namespace {
@@ -41,48 +41,40 @@ std::string with_unit(double value, const JsonValue& rule) {
 
 void add_verdict(ReportPage& page, const JsonValue& check) {
   const std::string& verdict = text(check, "verdict");
-  if (verdict == "go")
-    page.banner("GO", ReportPage::Tone::kGood);
-  else if (verdict == "no_go")
-    page.banner("NO-GO", ReportPage::Tone::kBad);
-  else
-    page.banner("UNKNOWN", ReportPage::Tone::kOpen);
+  page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
+                                                            : verdict == "no_go" ? ReportPage::Tone::kBad
+                                                                                 : ReportPage::Tone::kOpen);
   const JsonValue &figures = at(check, "summary"), &outcomes = at(check, "outcomes");
-  const JsonValue& stops = at(outcomes, "expected_stops");
   const long minutes = std::lround(number(figures, "duration_s") / 60.0);
-  page.paragraph(
-      fmt::format("{:.1f} m in {}:{:02d} h of driving, {:.2f} sols expected. Embedding {}, expected stops "
-                  "{:.2f} ({:.2f} to "
-                  "{:.2f}), with 90 % intervals from {:.0f} draws of the ground.",
-                  number(figures, "length_m"), minutes / 60, minutes % 60, number(outcomes, "expected_sols"),
-                  share_words(at(outcomes, "embedding")), number(stops, "value"), number(stops, "low"),
-                  number(stops, "high"), number(outcomes, "draws")));
+  page.paragraph(fmt::format(
+      "{:.1f} m in {}:{:02d} h of driving. A halt in {} of the draws, immobilised in {}, embedded in {}, with "
+      "90 % intervals from {:.0f} draws of the ground.",
+      number(figures, "length_m"), minutes / 60, minutes % 60, share_words(at(outcomes, "stop")),
+      share_words(at(outcomes, "immobilised")), share_words(at(outcomes, "embedding")),
+      number(outcomes, "draws")));
   for (const JsonValue& reason : at(check, "reasons").elements) page.item(reason.text);
+  if (verdict == "go") return;
   page.section("What would change it");
-  for (std::string& advice : check_advice(check)) page.item(std::move(advice));
+  const auto& advice = at(at(check, "decision"), "advice").elements;
+  for (const JsonValue& each : advice) page.item(text(each, "words"));
+  if (advice.empty()) page.item("No shorter drive or scout drive was found to: another way or goal");
 }
 
 void add_rules(ReportPage& page, const JsonValue& outcomes) {
   page.section("The rules");
-  page.table({"rule", "limit", "value, median", "5 to 95 %", "margin", "trips (90 % interval)", "from - to",
-              "wheel", "cause"});
+  page.table({"rule", "limit", "value, median", "5 to 95 %", "trips (90 % interval)", "value then",
+              "from - to", "wheel", "cause"});
   for (const JsonValue& rule : at(outcomes, "rules").elements) {
     const JsonValue& value = at(rule, "value");
     page.row(
-        {text(rule, "rule"), with_unit(number(rule, "limit"), rule), with_unit(number(value, "p50"), rule),
+        {text(rule, "words"), with_unit(number(rule, "limit"), rule), with_unit(number(value, "p50"), rule),
          fmt::format("{:.3g} to {:.3g}", number(value, "p05"), number(value, "p95")),
-         with_unit(number(rule, "margin"), rule), share_words(at(rule, "trips")),
+         share_words(at(rule, "trips")),
+         has(rule, "tripping_value") ? with_unit(number(at(rule, "tripping_value"), "p50"), rule) : "-",
          has(rule, "from_m") ? fmt::format("{:.1f} - {:.1f} m", number(rule, "from_m"), number(rule, "to_m"))
                              : "-",
-         has(rule, "wheel") ? text(rule, "wheel") : "-", text(rule, "cause")});
+         has(rule, "wheel") ? text(rule, "wheel") : "-", has(rule, "cause") ? text(rule, "cause") : "-"});
   }
-}
-
-std::string joined_metres(const JsonValue& places) {
-  std::string words;
-  for (const JsonValue& place : places.elements)
-    words += fmt::format("{}{:.0f}", words.empty() ? "" : ", ", place.number);
-  return words;
 }
 
 // The worst stretches in their order, and what the others have together.
@@ -100,39 +92,35 @@ void add_stretches(ReportPage& page, const JsonValue& check) {
   const std::size_t shown = std::min(kMostShown, order.size());
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown));
   page.section("Stretches");
-  page.table({"from - to", "expected stops", "embedding",
+  page.table({"from - to", "halts here first", "embedding",
               "behind the commanded way at its end, median (90 % interval)"});
   for (std::size_t k = 0; k < shown; ++k) {
     const JsonValue& stretch = stretches.elements[order[k]];
     page.row({fmt::format("{:.1f} - {:.1f} m", number(stretch, "from_m"), number(stretch, "to_m")),
-              fmt::format("{:.3f}", number(stretch, "expected_stops")), percent(number(stretch, "embedding")),
+              percent(number(stretch, "expected_stops")), percent(number(stretch, "embedding")),
               spread_words(at(behind.elements[order[k]], "shortfall_m"))});
   }
   if (shown < order.size()) {
     double rest = 0.0;
     for (std::size_t k = shown; k < order.size(); ++k) rest += wrong(stretches.elements[order[k]]);
-    page.paragraph(fmt::format("The other {} stretches have {:.3f} stops and embeddings together.",
+    page.paragraph(fmt::format("The other {} stretches have {:.3f} halts and embeddings together.",
                                order.size() - shown, rest));
   }
 }
 
-void add_commands(ReportPage& page, const JsonValue& check) {
-  const JsonValue& recommended = at(at(check, "outcomes"), "recommended");
+void add_position(ReportPage& page, const JsonValue& check) {
   const JsonValue& uncertainty = at(check, "position_uncertainty");
-  page.section("To be commanded");
-  const std::string places = joined_metres(at(recommended, "slip_checks_before_m"));
-  page.item(places.empty() ? "No stretch needs a check of the slip beyond the usual ones"
-                           : fmt::format("Check the slip before the stretches that begin at {} m", places));
-  if (has(recommended, "max_tilt_deg"))
-    page.item(fmt::format("Limit of tilt that the drive keeps with 2 deg of margin: {:.1f} deg",
-                          number(recommended, "max_tilt_deg")));
-  page.item(
-      fmt::format("Commanded by the way its wheels roll and without a look at where it is, the rover ends {} "
-                  "behind the end of its "
-                  "{:.1f} m; at most {} of that come between two checks of the slip. Median and 90 % "
-                  "interval; heading errors are not in it",
-                  spread_words(at(uncertainty, "shortfall_m")), number(uncertainty, "commanded_m"),
-                  spread_words(at(uncertainty, "between_checks_m"))));
+  const JsonValue& heading = at(uncertainty, "heading_deg");
+  page.section("Where the rover ends");
+  page.item(fmt::format(
+      "Commanded by the way its wheels roll and without a look at where it is, the rover ends {} behind the "
+      "end of its {:.1f} m, {} to the left of it and {:.1f} deg ({:.1f} to {:.1f} deg) off its heading. Median "
+      "and 90 % interval",
+      spread_words(at(uncertainty, "shortfall_m")), number(uncertainty, "commanded_m"),
+      spread_words(at(uncertainty, "cross_track_m")), number(heading, "p50"), number(heading, "p05"),
+      number(heading, "p95")));
+  page.item(fmt::format("At most {} are lost between two checks of the slip",
+                        spread_words(at(uncertainty, "between_checks_m"))));
 }
 
 // The value as JSON on one line, cut where it is long.
@@ -178,11 +166,11 @@ Result<std::string> check_report(const Catalogue& catalogue, std::string_view an
   if (!map && map.error().code != ErrorCode::kNoData) return fail(map.error());
   if (map)
     page.picture({"map", *std::move(map)},
-                 "The path by the stops and embeddings that are expected on each stretch");
-  add_commands(page, *check);
+                 "The path by the halts and embeddings that are expected on each stretch");
+  add_position(page, *check);
   add_stretches(page, *check);
   page.picture(draw_check(*check),
-               "Against the limits of the request; stops, embeddings and the error of the position");
+               "Against the limits of the request; halts, embeddings and the error of the position");
   add_provenance(page, *check);
   return page.html();
 }

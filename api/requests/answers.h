@@ -14,7 +14,7 @@
 #include "gap/diagnosis/drive_watch.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "planner/drive_so_far_evidence.h"
-#include "planner/problem/decision.h"
+#include "planner/problem/verdict.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/route.h"
 
@@ -57,14 +57,14 @@ struct PredictionAnswer {
   Provenance provenance;
   sim::DrivePrediction prediction;
   std::optional<planner::DynamicVerification> dynamic;  // where the dynamic level was requested
-  planner::DriveDecision decision;
+  planner::DriveVerdict decision;
 };
 
 struct CheckAnswer {
   CheckRequest request;
   Provenance provenance;
   sim::DrivePrediction prediction;
-  planner::DriveDecision decision;
+  planner::DriveVerdict decision;
 };
 
 struct DiagnosisAnswer {

@@ -9,7 +9,7 @@
 
 #include "core/angle.h"
 #include "planner/judge/drawn_cost.h"
-#include "planner/judge/drive_decision.h"
+#include "planner/judge/drive_verdict.h"
 #include "planner/problem/weights.h"
 
 namespace slipway::planner {
@@ -38,38 +38,11 @@ std::string largest_slip(const sim::DrivePrediction& drive) {
                      slope_in_words(station.attitude));
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string all;
-  for (const std::string& part : parts) all += (all.empty() ? "" : "; ") + part;
-  return all;
-}
-
-// The first reasons, which decide; the others are in the decision itself.
-std::string deciding(const DriveDecision& decision) {
-  constexpr std::size_t kDeciding = 2;
-  const std::size_t count = std::min(decision.reasons.size(), kDeciding);
-  return joined({decision.reasons.begin(), decision.reasons.begin() + static_cast<std::ptrdiff_t>(count)});
-}
-
+// "GO: ...", with the reason that decides.
 std::string verdict_reason(const Route& route) {
-  const sim::DrivePrediction& drive = route.prediction;
-  if (drive.immobilised) return "no go: immobilised, " + drive.immobilised->reason;
-  if (!drive.broken_limits.empty()) return "no go: " + joined(drive.broken_limits);
-  const DynamicVerification* const dynamic = route.dynamic ? &*route.dynamic : nullptr;
-  if (dynamic && dynamic->refutes()) {
-    if (!dynamic->end || dynamic->end == sim::DriveEnd::kFinished)
-      return "no go in the dynamic simulation: " + joined(dynamic->broken_limits);
-    return fmt::format("no go in the dynamic simulation: {} at {:.1f} m, {}", end_in_words(*dynamic),
-                       dynamic->distance_m, dynamic->reason);
-  }
-  std::string why;
-  if (drive.draws > 0 && route.decision.decision != Decision::kGo) why = deciding(route.decision);
-  if (dynamic && !dynamic->end)
-    why += fmt::format("{}{} the dynamic simulation: {}", why.empty() ? "" : "; ",
-                       dynamic->left_the_route ? "neither confirmed nor refuted by" : "no answer from",
-                       dynamic->reason);
-  if (!why.empty()) return "caution: " + why;
-  return fmt::format("go: within every limit on the mean soils; {}", deciding(route.decision));
+  const std::string_view verdict = verdict_words(describe(route.verdict()));
+  return route.decision.reasons.empty() ? std::string(verdict)
+                                        : fmt::format("{}: {}", verdict, route.decision.reasons.front());
 }
 
 // What the dynamic simulation adds to a route that it does not refute.
@@ -144,7 +117,7 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
 // Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
 // it.
 std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
-  if ((route.verdict == Verdict::kNoGo) != (before.verdict == Verdict::kNoGo))
+  if ((route.verdict() == Verdict::kNoGo) != (before.verdict() == Verdict::kNoGo))
     return fmt::format("behind route {} because a limit is broken", before.rank);
   std::string terms;
   for (std::size_t k = 0; k < route.shares.size(); ++k) {
@@ -161,7 +134,7 @@ std::string against_the_one_before(const Route& route, const Route& before, cons
 
 // Why the first route leads.
 std::string against_the_second(const Route& route, const Route& next, const Ranking& ranking) {
-  if ((route.verdict == Verdict::kNoGo) != (next.verdict == Verdict::kNoGo))
+  if ((route.verdict() == Verdict::kNoGo) != (next.verdict() == Verdict::kNoGo))
     return "best: in route 2 a limit is broken";
   const CostDifference less = ranked_difference(next, route, ranking);
   if (less.draws == 0)
@@ -179,7 +152,7 @@ std::string against_the_second(const Route& route, const Route& next, const Rank
 // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
 int group_of(const Route& route) {
   if (route.prediction.immobilised) return 2;
-  return route.verdict == Verdict::kNoGo ? 1 : 0;
+  return route.verdict() == Verdict::kNoGo ? 1 : 0;
 }
 
 }  // namespace
@@ -200,16 +173,7 @@ void judge(const PlanProblem& problem, Route& route) {
     route.shares.push_back(std::move(share));
   }
   cost_draws(problem, route);
-  route.decision = decide(problem, drive);
-  const bool refuted = route.dynamic && route.dynamic->refutes();
-  const bool unanswered = route.dynamic && !route.dynamic->end;
-  if (drive.immobilised || !drive.broken_limits.empty() || refuted) {
-    route.verdict = Verdict::kNoGo;
-  } else if ((drive.draws > 0 && route.decision.decision != Decision::kGo) || unanswered) {
-    route.verdict = Verdict::kCaution;
-  } else {
-    route.verdict = Verdict::kGo;
-  }
+  route.decision = judge_drive(problem, drive, {.dynamic = route.dynamic ? &*route.dynamic : nullptr});
 }
 
 bool ranks_before(const Route& a, const Route& b) {
@@ -229,7 +193,7 @@ std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ra
     for (auto other = place + 1; other != order.end(); ++other)
       // A verdict is not given up for a shorter way.
       if (routes[*other].prediction.length_m < routes[*first].prediction.length_m &&
-          routes[*other].verdict <= leader.verdict && !clearly_apart(leader, routes[*other], ranking))
+          routes[*other].verdict() <= leader.verdict() && !clearly_apart(leader, routes[*other], ranking))
         first = other;
     std::rotate(place, first, first + 1);
   }

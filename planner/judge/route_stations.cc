@@ -1,5 +1,6 @@
 #include "planner/judge/route_stations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -29,8 +30,9 @@ void append_drive(std::vector<sim::PathStation>& path, const Motion& motion, dou
   if (motion.length_m <= 0.0) return;
   const int pieces = static_cast<int>(std::ceil(motion.length_m / spacing_m - 1e-9));
   const double before = path.back().distance_m;
+  // At whole spacings from the motion's beginning, so that a shorter motion has the stations of a longer one.
   for (int k = 1; k <= pieces; ++k) {
-    const double driven = motion.length_m * k / pieces;
+    const double driven = std::min(motion.length_m, spacing_m * k);
     sim::PathStation station;
     station.pose = motion.at(driven);
     station.distance_m = before + driven;

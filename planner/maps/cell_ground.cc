@@ -15,10 +15,6 @@ int footprint_reach(const sim::RoverModel& rover, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(half_width / cell_m)));
 }
 
-double circumscribed_m(const sim::RoverModel& rover) {
-  return 0.5 * std::hypot(rover.body_length_m, rover.body_width_m);
-}
-
 // Heights of a window with a margin around it, as floats above the first one; NaN where there is none.
 class Heights {
  public:
@@ -154,7 +150,7 @@ void mask_near_edges(const dem::GridGeometry& terrain, const dem::CellWindow& wi
 int reach_in_cells(const sim::RoverModel& rover, const dem::GridGeometry& geometry) {
   const double cell_m = std::min(geometry.cell_x_m, geometry.cell_y_m);
   return std::max({footprint_reach(rover, geometry.cell_x_m), footprint_reach(rover, geometry.cell_y_m),
-                   static_cast<int>(std::ceil(circumscribed_m(rover) / cell_m)) + 1});
+                   static_cast<int>(std::ceil(rover.circumscribed_m() / cell_m)) + 1});
 }
 
 CellGround cell_ground(const dem::Terrain& terrain, const dem::CellWindow& window, const dem::Extent& map,
@@ -178,8 +174,8 @@ CellGround cell_ground(const dem::Terrain& terrain, const dem::CellWindow& windo
     find_rises(heights, window, g, reach_x, reach_y, ground);
   }
   if (heights.any_missing())
-    mask_near_missing(heights, window, g, map, margin, circumscribed_m(rover), ground);
-  mask_near_edges(g, window, map, circumscribed_m(rover), ground);
+    mask_near_missing(heights, window, g, map, margin, rover.circumscribed_m(), ground);
+  mask_near_edges(g, window, map, rover.circumscribed_m(), ground);
   return ground;
 }
 

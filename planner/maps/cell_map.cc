@@ -102,10 +102,10 @@ bool CellMap::may_drive(double gradient_x, double gradient_y, double rise_m) con
 }
 
 float CellMap::verdict_on(const Ground& ground, double gradient_x, double gradient_y) const {
-  const PlanProblem& drive = problem_.drive;
+  const sim::OutcomeBars& bars = problem_.drive.risk.bars;
   const auto keeps_bars = [&](const SlopeFigures& figures) {
-    return ground.on_slopes.over(problem_.distance_m, figures.embedding) < drive.risk.bars.max_embedding &&
-           ground.on_slopes.over(problem_.distance_m, figures.stop) < drive.risk.bars.max_expected_stops;
+    return ground.on_slopes.over(problem_.distance_m, figures.embedding) < bars.max_embedding &&
+           ground.on_slopes.over(problem_.distance_m, figures.stop) < bars.max_stop;
   };
   if (problem_.heading_rad) {
     const double c = std::cos(*problem_.heading_rad), s = std::sin(*problem_.heading_rad);

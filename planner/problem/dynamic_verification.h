@@ -6,7 +6,7 @@
 
 #include "core/pose.h"
 #include "sim/dynamic/dynamic_drive.h"
-#include "sim/prediction/drive_limits.h"
+#include "sim/prediction/rule_catalogue.h"
 #include "sim/rover/rover_model.h"
 
 namespace slipway::planner {
@@ -47,7 +47,7 @@ struct DynamicVerification {
   // balance knows nothing, does not count as slip on the way. There is no clearance: the dynamic simulation
   // only shows where the belly touches.
   sim::DriveExtremes extremes;
-  std::vector<std::string> broken_limits;  // in the words of DrivePrediction's
+  std::vector<sim::BrokenLimit> broken_limits;
   // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,
   // as far as both simulations got.
   double compared_m = 0.0;

@@ -2,12 +2,11 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "planner/problem/decision.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/ranking.h"
+#include "planner/problem/verdict.h"
 #include "sim/prediction/drive_prediction.h"
 
 namespace slipway::planner {
@@ -22,16 +21,6 @@ struct CostShare {
   double ranked_cost = 0.0;  // the same in the draws by which the route is ranked
 };
 
-enum class Verdict {
-  kGo,       // within every limit, on known ground, risk within the accepted one
-  kCaution,  // within every limit under the mean soils, but on unknown ground, at more than the accepted
-             // risk, or with no answer from a simulation that was asked for, or that left the route
-  kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any simulation of it
-};
-
-// "go", "caution", "no_go".
-std::string_view describe(Verdict verdict);
-
 struct Route {
   int rank = 0;         // 1 is best
   std::string planner;  // that proposed it
@@ -44,10 +33,11 @@ struct Route {
   double expected_cost = 0.0;             // the mean of the draws' costs
   double cvar_cost = 0.0;                 // the mean of the dearest of them, see Ranking
   double ranked_cost = 0.0;               // the one of the two by which the route is ranked
-  Verdict verdict = Verdict::kGo;
-  DriveDecision decision;            // by the draws of the ground
+  DriveVerdict decision;
   bool pareto = false;               // no other route of the plan dominates it, see dominates()
-  std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
+  std::vector<std::string> reasons;  // why it is judged so and ranked so, in words and numbers
+
+  Verdict verdict() const { return decision.verdict; }
 };
 
 // What a scout drive onto the ground that decides the best route is worth to the choice between the routes.

@@ -122,7 +122,7 @@ GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
     : problem_(problem),
       keep_out_(keep_out),
       geometry_(geometry),
-      circumscribed_m_(0.5 * std::hypot(problem.rover->body_length_m, problem.rover->body_width_m)),
+      circumscribed_m_(problem.rover->circumscribed_m()),
       max_tilt_rad_(problem.max_tilt_rad()),
       steepest_squared_(std::pow(std::tan(max_tilt_rad_), 2)),
       most_rise_m_(std::max(problem.terrain->geometry().cell_x_m, problem.terrain->geometry().cell_y_m) <

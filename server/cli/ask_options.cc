@@ -17,6 +17,10 @@ void add_ask(CLI::App& command, AskOptions& ask) {
   command.add_flag("--json", ask.json, "print the whole document, for machines");
 }
 
+void add_why(CLI::App& command, AskOptions& ask) {
+  command.add_flag("--why", ask.why, "print all that led to the verdict");
+}
+
 void add_model(CLI::App& command, AskOptions& ask) {
   CLI::Option* model = command.add_option(
       "--model", ask.model,

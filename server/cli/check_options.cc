@@ -30,6 +30,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
           "")
       ->group("");
   add_ask(*command, options->ask);
+  add_why(*command, options->ask);
   add_model(*command, options->ask);
   add_drive(*command, options->drive);
   add_places(*command, "--path", options->path, "corners of the path, each x,y or x,y,yaw_deg");

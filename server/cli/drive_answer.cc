@@ -82,7 +82,8 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
 
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
-                  Result<std::string> (*table)(std::string_view), ExitStatus (*verdict)(std::string_view)) {
+                  Result<std::string> (*table)(std::string_view, bool why),
+                  ExitStatus (*verdict)(std::string_view)) {
   if (!request) return refuse(request.error());
   const auto service = inquiry(ask);
   if (!service) return refuse(service.error());
@@ -92,7 +93,7 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
     answer = ((**service).*question)(*request, progress);
   }
   if (!answer) return refuse(answer.error());
-  const auto printed = ask.json ? answer : table(*answer);
+  const auto printed = ask.json ? answer : table(*answer, ask.why);
   if (!printed) return refuse(printed.error());
   std::vector<OutputFile> files;
   std::optional<Error> unmade;

@@ -34,7 +34,8 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
 // verdict, where all went well.
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
-                  Result<std::string> (*table)(std::string_view), ExitStatus (*verdict)(std::string_view));
+                  Result<std::string> (*table)(std::string_view, bool why),
+                  ExitStatus (*verdict)(std::string_view));
 
 // The exit status of an answer's verdict; of a plan, of its best route's.
 ExitStatus check_status(std::string_view check);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 
+#include "sim/prediction/rule_catalogue.h"
 #include "sim/rover/wheel_failure.h"
 
 namespace slipway::server {
@@ -39,6 +40,18 @@ PlaceOption place_of(const std::string& text) {
   return place;
 }
 
+// One flag for each limit of the rule catalogue: max_tilt_deg is --max-tilt-deg.
+void add_limits(CLI::App& command, DriveOptions& drive) {
+  for (const sim::RuleRow& row : sim::rule_catalogue()) {
+    if (!row.limit) continue;
+    std::string flag = "--" + std::string(row.key);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    command.add_option_function<double>(
+        flag, [&drive, &row](double value) { drive.limits[row.key] = value; },
+        fmt::format("limit of the {}", row.help));
+  }
+}
+
 }  // namespace
 
 void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place,
@@ -60,11 +73,7 @@ void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOpt
 void add_assumptions(CLI::App& command, DriveOptions& drive) {
   command.add_option("--terrain", drive.terrain, "name of the terrain")->capture_default_str();
   command.add_option("--rover", drive.rover, "name of the rover")->capture_default_str();
-  command.add_option("--max-slip", drive.max_slip, "limit of slip, 0 to 1");
-  command.add_option("--max-tilt-deg", drive.max_tilt_deg, "limit of tilt");
-  command.add_option("--max-current-a", drive.max_current_a, "limit of any motor's current");
-  command.add_option("--max-sinkage-m", drive.max_sinkage_m, "limit of any wheel's sinkage");
-  command.add_option("--min-clearance-m", drive.min_clearance_m, "least clearance of the belly");
+  add_limits(command, drive);
   command.add_option(
       "--keep-out", drive.keep_out,
       "an area that the rover's body must not enter: \"x,y x,y x,y\", or a GeoJSON file of polygons in map "
@@ -80,8 +89,16 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
                      "turns at such a slip without a check that embed the rover");
   command.add_option("--embedding-sinkage-share", drive.embedding_sinkage_share,
                      "share of a wheel's radius, deeper than which the rover is embedded");
-  command.add_option("--max-embedding", drive.max_embedding, "bar of a GO: probability of embedding");
-  command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
+  command.add_option("--max-stop", drive.max_stop,
+                     "GO below this probability of a halt, 0.2 where it is not given");
+  command.add_option("--no-go-stop", drive.no_go_stop,
+                     "NO-GO above this probability of a halt, 0.5 where it is not given");
+  command.add_option("--max-immobilised", drive.max_immobilised,
+                     "GO below, NO-GO above this probability that the ground holds the rover, 0.01 where it "
+                     "is not given");
+  command.add_option("--max-embedding", drive.max_embedding,
+                     "GO below, NO-GO above this probability that the wheels dig in, 0.01 where it is not "
+                     "given");
   command.add_option("--beliefs", drive.beliefs,
                      "file of soils (soils/1) that stand in for those of the same names, or beside them");
   command.add_option("--unknown-soil", drive.unknown_soil, "what unmapped ground is believed to be");

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -19,10 +21,10 @@ struct PlaceOption {
 struct DriveOptions {
   std::string terrain = "gale";
   std::string rover = "msl-class";
-  std::optional<double> max_slip, max_tilt_deg, speed_m_s;
-  std::optional<double> max_current_a, max_sinkage_m, min_clearance_m;
+  std::map<std::string_view, double> limits;  // by the keys of sim::rule_catalogue()
+  std::optional<double> speed_m_s;
   std::optional<double> slip_check_every_m, embedding_slip, embedding_turns, embedding_sinkage_share;
-  std::optional<double> max_embedding, max_expected_stops;
+  std::optional<double> max_embedding, max_immobilised, max_stop, no_go_stop;
   std::optional<int> as_of_sol;
   std::string drive_so_far;  // file with the telemetry of a drive under way; empty: none
   std::string beliefs;       // file with soils that stand in for the catalogue's; empty: none

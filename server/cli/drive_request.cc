@@ -94,19 +94,21 @@ void write_place(Writer& w, const PlaceOption& place) {
 
 Result<void> write_drive(Writer& w, const DriveOptions& drive) {
   w.text("terrain", drive.terrain).text("rover", drive.rover);
-  write_given(w, "limits",
-              {{"max_slip", drive.max_slip},
-               {"max_tilt_deg", drive.max_tilt_deg},
-               {"max_current_a", drive.max_current_a},
-               {"max_sinkage_m", drive.max_sinkage_m},
-               {"min_clearance_m", drive.min_clearance_m}});
+  if (!drive.limits.empty()) {
+    w.key("limits").begin_object();
+    for (const auto& [key, value] : drive.limits) w.exact(key, value);
+    w.end_object();
+  }
   write_given(w, "checks",
               {{"slip_check_every_m", drive.slip_check_every_m},
                {"embedding_slip", drive.embedding_slip},
                {"embedding_turns", drive.embedding_turns},
                {"embedding_sinkage_share", drive.embedding_sinkage_share}});
   write_given(w, "bars",
-              {{"max_embedding", drive.max_embedding}, {"max_expected_stops", drive.max_expected_stops}});
+              {{"max_embedding", drive.max_embedding},
+               {"max_immobilised", drive.max_immobilised},
+               {"max_stop", drive.max_stop},
+               {"no_go_stop", drive.no_go_stop}});
   if (!drive.effects.empty()) {
     w.key("effects").begin_array();
     for (const std::string& effect : drive.effects) write_effect(w, effect);

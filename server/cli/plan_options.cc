@@ -17,6 +17,7 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand("plan", "propose routes, simulate and rank them");
   add_ask(*command, options->ask);
+  add_why(*command, options->ask);
   add_model(*command, options->ask);
   add_drive(*command, options->drive);
   command

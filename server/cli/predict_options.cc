@@ -17,6 +17,7 @@ void add_predict_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PredictOptions>();
   CLI::App* command = app.add_subcommand("predict", "simulate a given path");
   add_ask(*command, options->ask);
+  add_why(*command, options->ask);
   add_model(*command, options->ask);
   add_drive(*command, options->drive);
   add_places(*command, "--path", options->path, "corners of the path, each x,y or x,y,yaw_deg");

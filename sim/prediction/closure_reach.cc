@@ -71,6 +71,7 @@ ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravi
                     const PreparedDrive& drive, const DriveLimits& limits) {
   ClosureEnd end;
   QuasiStaticSolver solver(rover, gravity_m_s2, Precision::kDraws);
+  const StationRules rules(rover, limits);
   PerWheel<Soil> under(rover.wheels.size());
   for (const PreparedStation& station : drive.stations) {
     for (std::size_t k = 0; k < under.size(); ++k) under[k] = soils.of(station.soil[k]);
@@ -82,7 +83,7 @@ ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravi
       end.c1 = soils.of(ground).c1;
       end.c2 = soils.of(ground).c2;
     }
-    end.breaks_a_limit = end.breaks_a_limit || breaks(limits, state);
+    end.breaks_a_limit = end.breaks_a_limit || rules.broken_by(station.stance, state, true);
     if (state.moving()) continue;
     end.immobilised_at_m = station.distance_m;
     break;

@@ -35,8 +35,13 @@ double rocks_per_m2(const ReliefSpread& spread, double min_width_m) {
   return sum;
 }
 
-DrawnRelief::DrawnRelief(const Ground& ground, const ReliefSpread& spread, std::uint64_t key)
-    : ground_(ground), spread_(spread), key_(key), rocks_per_m2_(rocks_per_m2(spread, spread.min_rock_m)) {
+DrawnRelief::DrawnRelief(const Ground& ground, const ReliefSpread& spread, std::uint64_t key,
+                         const std::optional<StandingPlace>& standing)
+    : ground_(ground),
+      spread_(spread),
+      key_(key),
+      standing_(standing),
+      rocks_per_m2_(rocks_per_m2(spread, spread.min_rock_m)) {
   if (rocks_per_m2_ <= 0.0) return;
   // Down the widths, where as many are wider as each share asks for.
   constexpr int kQuantiles = 64;
@@ -123,18 +128,31 @@ DrawnRelief::Rise DrawnRelief::rocks(double x_m, double y_m) const {
   return highest;
 }
 
+// The share of the drawn relief that lies at a place, with its gradient: a smooth step over the radius.
+DrawnRelief::Rise DrawnRelief::drawn_share(double x_m, double y_m) const {
+  if (!standing_) return {1.0, 0.0, 0.0};
+  const double dx = x_m - standing_->pose.x_m, dy = y_m - standing_->pose.y_m;
+  const double away = std::hypot(dx, dy), t = away / standing_->radius_m - 1.0;
+  if (t <= 0.0) return {};
+  if (t >= 1.0) return {1.0, 0.0, 0.0};
+  const double by_way = 6.0 * t * (1.0 - t) / standing_->radius_m;
+  return {t * t * (3.0 - 2.0 * t), by_way * dx / away, by_way * dy / away};
+}
+
 std::optional<GroundPoint> DrawnRelief::at(double x_m, double y_m) const {
   std::optional<GroundPoint> point = ground_.at(x_m, y_m);
   if (!point) return point;
+  const Rise share = drawn_share(x_m, y_m);
+  if (share.height_m <= 0.0) return point;
   const std::array<Rise, 3> all{
       noise(random_key(key_, kError), spread_.elevation_error_m, spread_.error_length_m, x_m, y_m),
       noise(random_key(key_, kRoughness), spread_.roughness_m, spread_.roughness_length_m, x_m, y_m),
       rocks(x_m, y_m)};
   double by_x = -point->normal.x() / point->normal.z(), by_y = -point->normal.y() / point->normal.z();
   for (const Rise& rise : all) {
-    point->height_m += rise.height_m;
-    by_x += rise.by_x;
-    by_y += rise.by_y;
+    point->height_m += share.height_m * rise.height_m;
+    by_x += share.height_m * rise.by_x + rise.height_m * share.by_x;
+    by_y += share.height_m * rise.by_y + rise.height_m * share.by_y;
   }
   point->normal = Eigen::Vector3d(-by_x, -by_y, 1.0).normalized();
   return point;

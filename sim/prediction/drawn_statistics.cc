@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -72,44 +71,29 @@ class Weighted {
   double sum_ = 0.0, effective_ = 0.0;
 };
 
-double limit_of(Rule rule, const DriveLimits& limits) {
-  switch (rule) {
-    case Rule::kSlipCheck:
-      return limits.max_slip_ratio;
-    case Rule::kTilt:
-      return limits.max_tilt_rad;
-    case Rule::kCurrent:
-      return limits.max_current_a;
-    case Rule::kSinkage:
-      return limits.max_sinkage_m;
-    case Rule::kClearance:
-      return limits.min_clearance_m;
-    case Rule::kEmbedding:
-      break;
-  }
-  return 1.0;
-}
-
 RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weighted& weighted,
-                   const DriveLimits& limits) {
-  const auto value = [&](const DrawnDrive& d) { return d.outcome.of(rule).value; };
-  RuleRisk risk{.rule = rule,
-                .limit = limit_of(rule, limits),
-                .value_p05 = weighted.quantile(value, 0.05),
-                .value_p50 = weighted.quantile(value, 0.50),
-                .value_p95 = weighted.quantile(value, 0.95),
-                .trips = weighted.share([&](const DrawnDrive& d) { return d.outcome.of(rule).tripped; })};
+                   const Segments* segments, double limit) {
+  RuleRisk risk;
+  risk.rule = rule;
+  risk.limit = limit;
+  risk.trips = weighted.share([&](const DrawnDrive& d) { return d.outcome.of(rule).tripped; });
+  const bool any = risk.trips.share > 0.0;
+  std::vector<std::pair<double, double>> values, tripping;
   std::map<std::pair<std::size_t, int>, double> places;
   bool first = true;
   for (const DrawnDrive& drive : drives) {
     const RuleTrace& trace = drive.outcome.of(rule);
+    values.emplace_back(trace.value, drive.weight);
     if (drive.weight <= 0.0) continue;
-    places[{trace.station, trace.wheel}] += drive.weight;
+    if (trace.tripped || !any) places[{trace.station, trace.wheel}] += drive.weight;
     if (!trace.tripped) continue;
+    tripping.emplace_back(trace.value, drive.weight);
     risk.from_m = first ? trace.first_m : std::min(risk.from_m, trace.first_m);
     risk.to_m = first ? trace.last_m : std::max(risk.to_m, trace.last_m);
     first = false;
   }
+  risk.value = spread_of(std::move(values));
+  if (!tripping.empty()) risk.tripping = spread_of(std::move(tripping));
   double most = 0.0;
   for (const auto& [place, weight] : places) {
     if (weight <= most) continue;
@@ -117,13 +101,17 @@ RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weigh
     risk.station = place.first;
     risk.wheel = place.second;
   }
+  if (segments)
+    risk.halts = weighted.mean([&](const DrawnDrive& d) {
+      const DriveEnding ending = segments->endings(d.outcome).front();
+      return ending.halt && ending.halt->rule == rule;
+    });
   return risk;
 }
 
-// Stops and embeddings by ground and by stretch.
+// First halts and embeddings by ground and by stretch.
 void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
-            DriveOutcomes& out) {
-  if (stations.empty()) return;
+            const Segments& segments, DriveOutcomes& out) {
   const double length = stations.back().distance_m;
   double from_m = 0.0;
   for (const double to_m : stretch_ends_m(stations)) {
@@ -140,126 +128,74 @@ void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedSta
   double sum = 0.0;
   for (const DrawnDrive& drive : drives) sum += drive.weight;
   for (const DrawnDrive& drive : drives) {
-    for (const OutcomeEvent& event : drive.outcome.events) {
-      const PreparedStation& station = stations[event.station];
+    segments.for_each_deciding(drive.outcome, [&](std::size_t at, bool embeds) {
+      const PreparedStation& station = stations[at];
       const auto piece = static_cast<std::size_t>(
           length > 0.0 ? std::min(pieces - 1.0, std::floor(station.distance_m / length * pieces)) : 0.0);
       GroundRisk& ground = grounds[ground_of(station)];
-      const bool embeds = event.rule == Rule::kEmbedding;
       (embeds ? ground.embedding : ground.expected_stops) += drive.weight / sum;
       (embeds ? out.stretches[piece].embedding : out.stretches[piece].expected_stops) += drive.weight / sum;
-    }
+    });
   }
   for (const auto& [soil, ground] : grounds) out.grounds.push_back(ground);
 }
 
-// The same by segments. What comes behind an embedding is not driven.
-std::vector<SegmentRisk> segments_of(const std::vector<DrawnDrive>& drives,
-                                     const std::vector<PreparedStation>& stations, double segment_m) {
-  const double length = stations.back().distance_m;
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(length / segment_m + 0.5)));
-  const auto segment_at = [&](double at_m) {
-    return std::min(count - 1, static_cast<std::size_t>(at_m / segment_m));
-  };
-  struct Sums {
-    double weight = 0.0, squares = 0.0, stops = 0.0, stops_squared = 0.0, stopped = 0.0, embedded = 0.0;
-  };
-  std::vector<Sums> sums(count);
-  double all = 0.0;
-  for (const DrawnDrive& drive : drives) {
-    all += drive.weight;
-    std::vector<int> stops(count, 0);
-    std::size_t last = count;
-    for (const OutcomeEvent& event : drive.outcome.events) {
-      const std::size_t segment = segment_at(stations[event.station].distance_m);
-      if (event.rule == Rule::kEmbedding)
-        last = segment;
-      else
-        ++stops[segment];
-    }
-    for (std::size_t k = 0; k < std::min(count, last + 1); ++k) {
-      Sums& sum = sums[k];
-      sum.weight += drive.weight;
-      sum.squares += drive.weight * drive.weight;
-      sum.stops += drive.weight * stops[k];
-      sum.stops_squared += drive.weight * stops[k] * stops[k];
-      sum.stopped += stops[k] > 0 ? drive.weight : 0.0;
-      sum.embedded += k == last ? drive.weight : 0.0;
-    }
-  }
-  std::vector<SegmentRisk> segments;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Sums& sum = sums[k];
-    SegmentRisk segment;
-    segment.from_m = segment_m * static_cast<double>(k);
-    segment.to_m = k + 1 == count ? length : segment_m * static_cast<double>(k + 1);
-    segment.reached = sum.weight / all;
-    if (sum.weight > 0.0) {
-      const double n = sum.weight * sum.weight / sum.squares;
-      DriveOutcomes figures;
-      figures.stop = share_of_draws(sum.stopped / sum.weight, n);
-      fill_expected_stops(sum.stops / sum.weight, sum.stops_squared / sum.weight, n, figures);
-      segment.stop = figures.stop;
-      segment.embedding = share_of_draws(sum.embedded / sum.weight, n);
-      segment.expected_stops = figures.expected_stops;
-      segment.expected_stops_low = figures.expected_stops_low;
-      segment.expected_stops_high = figures.expected_stops_high;
-    } else {
-      segment.stop.high = segment.embedding.high = 1.0;  // nobody knows
-      segment.expected_stops_high = std::numeric_limits<double>::infinity();
-    }
-    segments.push_back(segment);
-  }
-  return segments;
-}
-
-DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
-                          const std::vector<PreparedStation>& stations, const DriveLimits& limits) {
-  DriveOutcomes out;
-  out.effective_draws = weighted.effective();
-  out.stop = weighted.share([](const DrawnDrive& d) { return d.outcome.stops > 0; });
-  out.embedding = weighted.share([](const DrawnDrive& d) { return d.outcome.embedded; });
-  out.completed =
-      weighted.share([](const DrawnDrive& d) { return d.outcome.stops == 0 && !d.outcome.embedded; });
-  const double mean = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops; });
-  const double square = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops * d.outcome.stops; });
-  fill_expected_stops(mean, square, weighted.effective(), out);
-  const auto on_known = [&](const DrawnDrive& d, bool embeddings) {
-    return static_cast<double>(
-        std::count_if(d.outcome.events.begin(), d.outcome.events.end(), [&](const OutcomeEvent& event) {
-          return (event.rule == Rule::kEmbedding) == embeddings && ground_of(stations[event.station]);
-        }));
-  };
-  out.embedding_on_known = weighted.share([&](const DrawnDrive& d) { return on_known(d, true); });
-  out.expected_stops_on_known = weighted.mean([&](const DrawnDrive& d) { return on_known(d, false); });
-  locate(drives, stations, out);
+// The way behind, beside and off the heading at the end of each stretch.
+void fill_position(const Weighted& weighted, DriveOutcomes& out) {
   for (std::size_t k = 0; k < out.stretches.size(); ++k) {
-    const auto behind_m = [k](const DrawnDrive& d) { return static_cast<double>(d.shortfall_m[k]); };
-    out.stretches[k].shortfall_m = {weighted.quantile(behind_m, 0.05), weighted.quantile(behind_m, 0.50),
-                                    weighted.quantile(behind_m, 0.95)};
+    const auto spread = [&](std::vector<float> DrawnDrive::*member) -> DrawnSpread {
+      const auto at = [&](const DrawnDrive& d) { return static_cast<double>((d.*member)[k]); };
+      return {weighted.quantile(at, 0.05), weighted.quantile(at, 0.50), weighted.quantile(at, 0.95)};
+    };
+    out.stretches[k].shortfall_m = spread(&DrawnDrive::shortfall_m);
+    out.stretches[k].drift_m = spread(&DrawnDrive::drift_m);
+    out.stretches[k].turned_rad = spread(&DrawnDrive::turned_rad);
   }
-  for (std::size_t rule = 0; rule < kRules; ++rule)
-    out.rules.push_back(rule_risk(static_cast<Rule>(rule), drives, weighted, limits));
-  return out;
 }
 
-}  // namespace
-
-DrawnShare share_of_draws(double share, double n) {
-  constexpr double z = kReach90;
-  const double p = std::clamp(share, 0.0, 1.0);
-  const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
-}
-
-void fill_expected_stops(double mean, double square, double n, DriveOutcomes& out) {
-  const double error = std::sqrt(std::max(0.0, square - mean * mean) / n);
-  // Where hardly any draw stops, their scatter says little: the share of draws with a stop bounds the mean.
+// With 90 % interval. Where hardly any draw halts, their scatter says little: the share of draws with a halt
+// bounds the mean.
+void fill_expected_stops(const Weighted& weighted, DriveOutcomes& out) {
+  const auto stops = [](const DrawnDrive& d) { return static_cast<double>(d.outcome.stops); };
+  const double mean = weighted.mean(stops);
+  const double square = weighted.mean([&](const DrawnDrive& d) { return stops(d) * stops(d); });
+  const double error = std::sqrt(std::max(0.0, square - mean * mean) / weighted.effective());
   out.expected_stops = mean;
   out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
   out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
 }
+
+DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
+                          const std::vector<PreparedStation>& stations, const DriveLimits& limits,
+                          const RiskOptions& options) {
+  DriveOutcomes out;
+  out.effective_draws = weighted.effective();
+  EndingSums sums, on_known;
+  for (const DrawnDrive& drive : drives) {
+    const DriveEnding ending = drive.outcome.ending();
+    sums.add(drive.weight, ending, drive.unsolved);
+    const bool known = !ending.halt || ground_of(stations[ending.halt->station]);
+    on_known.add(drive.weight, known ? ending : DriveEnding{}, drive.unsolved);
+  }
+  static_cast<OutcomeShares&>(out) = sums.shares();
+  out.on_known = on_known.shares();
+  out.completed = weighted.share([](const DrawnDrive& d) { return d.outcome.ending().completed(); });
+  out.unsolved = weighted.mean([](const DrawnDrive& d) { return d.unsolved; });
+  fill_expected_stops(weighted, out);
+  std::optional<Segments> segments;
+  if (!stations.empty()) {
+    segments.emplace(stations, options.segment_m);
+    locate(drives, stations, *segments, out);
+    fill_position(weighted, out);
+    if (options.segment_m > 0.0) out.segments = segment_risks(drives, *segments);
+  }
+  for (const RuleRow& row : rule_catalogue())
+    out.rules.push_back(rule_risk(row.rule, drives, weighted, segments ? &*segments : nullptr,
+                                  limit_of(row.rule, limits, options.checks)));
+  return out;
+}
+
+}  // namespace
 
 DrawnSpread spread_of(std::vector<std::pair<double, double>> values) {
   std::sort(values.begin(), values.end());
@@ -284,20 +220,20 @@ std::vector<double> stretch_ends_m(const std::vector<PreparedStation>& stations)
   return ends;
 }
 
-void fill_events(const std::vector<DrawnDrive>& drives, std::vector<StationPrediction>& stations) {
+void fill_events(const std::vector<DrawnDrive>& drives, const Segments& segments,
+                 std::vector<StationPrediction>& stations) {
   double sum = 0.0;
   for (const DrawnDrive& drive : drives) sum += drive.weight;
   for (const DrawnDrive& drive : drives) {
-    for (const OutcomeEvent& event : drive.outcome.events) {
-      if (event.station >= stations.size()) continue;  // beyond the prediction on the mean soils
-      StationPrediction& at = stations[event.station];
-      (event.rule == Rule::kEmbedding ? at.embedding : at.stops) += drive.weight / sum;
-    }
+    segments.for_each_deciding(drive.outcome, [&](std::size_t at, bool embeds) {
+      if (at >= stations.size()) return;  // beyond the prediction on the mean soils
+      (embeds ? stations[at].embedding : stations[at].stops) += drive.weight / sum;
+    });
   }
 }
 
 void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station) {
-  std::vector<std::pair<double, double>> slip, current, sinkage, tilt, clearance;
+  std::vector<std::pair<double, double>> slip, current, sinkage, tilt, clearance, aside;
   double bad = 0.0, all = 0.0;
   for (const DrawnDrive& drive : drives) {
     all += drive.weight;
@@ -308,6 +244,7 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
     sinkage.emplace_back(drive.sinkage_m[s], drive.weight);
     tilt.emplace_back(drive.tilt_rad[s], drive.weight);
     clearance.emplace_back(drive.clearance_m[s], drive.weight);
+    aside.emplace_back(drive.aside_m[s], drive.weight);
   }
   station.risk = bad / all;
   if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
@@ -323,10 +260,13 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
   std::sort(clearance.begin(), clearance.end());
   station.clearance_m_p05 = quantile_of_sorted(clearance, 0.05);
   station.clearance_m_p95 = quantile_of_sorted(clearance, 0.95);
+  std::sort(aside.begin(), aside.end());
+  station.aside_m_p05 = quantile_of_sorted(aside, 0.05);
+  station.aside_m_p95 = quantile_of_sorted(aside, 0.95);
 }
 
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
-               const DriveLimits& limits, double segment_m, DrivePrediction& prediction) {
+               const DriveLimits& limits, const RiskOptions& options, DrivePrediction& prediction) {
   const Weighted weighted(drives);
   const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.breaks_a_limit; });
   prediction.draws = static_cast<int>(drives.size());
@@ -336,9 +276,7 @@ void summarise(const std::vector<DrawnDrive>& drives, const std::vector<Prepared
   prediction.risk_low = risk.low;
   prediction.risk_high = risk.high;
   prediction.risk_immobilised = weighted.mean([](const DrawnDrive& d) { return d.immobilised; });
-  prediction.outcomes = outcomes_of(drives, weighted, stations, limits);
-  if (segment_m > 0.0 && !stations.empty())
-    prediction.outcomes.segments = segments_of(drives, stations, segment_m);
+  prediction.outcomes = outcomes_of(drives, weighted, stations, limits, options);
   std::vector<std::pair<double, double>> duration, energy;
   for (const DrawnDrive& drive : drives) {
     if (drive.immobilised || drive.weight <= 0.0) continue;

@@ -12,7 +12,9 @@
 #include "sim/prediction/conditioned_draw.h"
 #include "sim/prediction/drawn_drive.h"
 #include "sim/prediction/drawn_statistics.h"
+#include "sim/prediction/drive_outcome.h"
 #include "sim/prediction/drive_risk.h"
+#include "sim/prediction/path_refinement.h"
 #include "sim/prediction/telemetry.h"
 
 namespace slipway::sim {
@@ -67,13 +69,15 @@ std::string reason_text(const RoverModel& rover, const SoilBeliefs& beliefs, con
 class Predictor {
  public:
   Predictor(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const SoilBeliefs& beliefs,
-            const DriveLimits& limits, const DriveConditions& conditions)
+            const DriveLimits& limits, const RiskOptions& risk, const DriveConditions& conditions)
       : rover_(rover),
         ground_(ground),
         beliefs_(beliefs),
         limits_(limits),
         conditions_(conditions),
-        solver_(rover, gravity_m_s2) {
+        solver_(rover, gravity_m_s2),
+        rules_(rover, limits),
+        follower_(rover, limits, risk.checks, risk.segment_m) {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
     prepared_.ground = &ground;
   }
@@ -81,28 +85,19 @@ class Predictor {
   // Without the stations of the prediction on the mean soils: for what is asked of the draws alone.
   void draws_alone() { draws_alone_ = true; }
 
-  // Returns false where the rover has no stance, so that no draw of the soil takes it further. Where the mean
-  // soils immobilise it, the prediction on them ends, while draws of better soils drive on.
-  bool add(const PathStation& station) {
-    const std::optional<Stance> stance = settle(rover_, ground_, station.pose);
-    if (!stance) return no_stance(station);
-    PreparedStation ready;
-    ready.stance = *stance;
-    ready.command = command_at(rover_, station, conditions_);
-    ready.pose = station.pose;
-    ready.distance_m = station.distance_m;
-    if (!prepared_.stations.empty())
-      ready.drive_m = station.distance_m - prepared_.stations.back().distance_m;
-    ready.turn_rad = std::abs(station.turned_rad);
-    if (station.turning_in_place && station.turned_rad == 0.0) ready.command.turn_in_place = false;
-    StationPrediction predicted = stand(station, ready);
-    if (!prediction_.immobilised) {
-      predicted.state = drive_on_means(ready);
-      predict(ready, predicted);
-      if (!draws_alone_) prediction_.stations.push_back(predicted);
+  // Adds the station, and others on the way to it where a limit may be broken between the two. Returns false
+  // where the rover has no stance, so that no draw of the soil takes it further. Where the mean soils
+  // immobilise it, the prediction on them ends, while draws of better soils drive on.
+  bool add(const PathStation& station, int halvings = 0) {
+    std::optional<Balanced> next = balance(station);
+    if (!next) return no_stance(station);
+    if (last_ && !draws_alone_ && halvings < kMaxHalvings &&
+        may_pass_a_limit(rules_, *last_, *next, halvings)) {
+      const auto [halfway, rest] = halved(last_->path, station);
+      if (wheel_without_ground(rover_, ground_, halfway.pose)) return take(std::move(*next));
+      return add(halfway, halvings + 1) && add(rest, halvings + 1);
     }
-    prepared_.stations.push_back(std::move(ready));
-    return true;
+    return take(std::move(*next));
   }
 
   const PreparedDrive& prepared() const { return prepared_; }
@@ -111,8 +106,7 @@ class Predictor {
     DrivePrediction& p = prediction_;
     p.mean_slip_ratio = p.length_m > 0.0 ? slip_length_ / p.length_m : p.max_slip_ratio.value;
     p.mean_slip_ratio_p05 = p.mean_slip_ratio_p50 = p.mean_slip_ratio_p95 = p.mean_slip_ratio;
-    p.broken_limits = broken_limits(
-        {p.max_slip_ratio, p.max_tilt_rad, p.max_current_a, p.max_sinkage_m, least_clearance_}, limits_);
+    find_broken_limits();
     return std::move(prediction_);
   }
 
@@ -128,33 +122,76 @@ class Predictor {
     return false;
   }
 
-  StationPrediction stand(const PathStation& station, PreparedStation& ready) const {
-    StationPrediction predicted;
-    predicted.station = station;
-    predicted.height_m = ready.stance.p_MB.z();
-    predicted.attitude = ready.stance.attitude;
-    predicted.clearance_m = ready.stance.belly_clearance_m;
-    predicted.soil = ground_.soil_at(station.pose.x_m, station.pose.y_m);
+  std::optional<Balanced> balance(const PathStation& station) {
+    std::optional<Stance> stance = settle(rover_, ground_, station.pose);
+    if (!stance) return std::nullopt;
+    Balanced next{.path = station, .ready = {}, .state = {}};
+    PreparedStation& ready = next.ready;
+    ready.stance = *std::move(stance);
+    ready.command = command_at(rover_, station, conditions_);
+    ready.pose = station.pose;
+    ready.distance_m = station.distance_m;
+    if (!prepared_.stations.empty())
+      ready.drive_m = station.distance_m - prepared_.stations.back().distance_m;
+    ready.turn_rad = std::abs(station.turned_rad);
+    if (station.turning_in_place && station.turned_rad == 0.0) ready.command.turn_in_place = false;
     ready.soil = PerWheel<std::optional<std::size_t>>(rover_.wheels.size());
     for (std::size_t k = 0; k < ready.soil.size(); ++k) {
       const Eigen::Vector3d p_M = ready.stance.p_MB + ready.stance.R_MB * ready.stance.p_B_wheel[k];
       ready.soil[k] = ground_.soil_at(p_M.x(), p_M.y());
-      if (!ready.soil[k]) predicted.on_unknown_ground = true;
     }
+    if (!prediction_.immobilised) next.state = drive_on_means(next);
+    return next;
+  }
+
+  bool take(Balanced next) {
+    if (!prediction_.immobilised) {
+      StationPrediction predicted = stand(next);
+      predict(next.ready, predicted);
+      if (!draws_alone_) prediction_.stations.push_back(std::move(predicted));
+    }
+    prepared_.stations.push_back(next.ready);
+    last_ = std::move(next);
+    return true;
+  }
+
+  StationPrediction stand(const Balanced& at) const {
+    StationPrediction predicted;
+    predicted.station = at.path;
+    predicted.height_m = at.ready.stance.p_MB.z();
+    predicted.attitude = at.state.attitude;
+    predicted.clearance_m = at.ready.stance.belly_clearance_m;
+    predicted.soil = ground_.soil_at(at.path.pose.x_m, at.path.pose.y_m);
+    for (std::size_t k = 0; k < at.ready.soil.size(); ++k)
+      if (!at.ready.soil[k]) predicted.on_unknown_ground = true;
+    predicted.state = at.state;
     return predicted;
   }
 
-  StationState drive_on_means(PreparedStation& ready) {
+  // Where the solver gives up, the drive is taken to go on as it came.
+  StationState drive_on_means(Balanced& next) {
+    PreparedStation& ready = next.ready;
     PerWheel<Soil> soils(ready.soil.size());
     for (std::size_t k = 0; k < soils.size(); ++k) soils[k] = beliefs_.of(ready.soil[k]).mean;
     StationState state = solver_.solve(ready.stance, soils, ready.command);
-    if (!state.by_slip_curve) ready.on_means = solver_.unknowns_of_last();
-    return state;
+    if (state.outcome == Outcome::kNotConverged) {
+      solver_.reset();
+      state = solver_.solve(ready.stance, soils, ready.command);
+    }
+    if (state.outcome != Outcome::kNotConverged) {
+      if (!state.by_slip_curve) ready.on_means = solver_.unknowns_of_last();
+      return state;
+    }
+    if (!prediction_.unsolved)
+      prediction_.unsolved = {ready.distance_m, ready.pose,
+                              fmt::format("the solver found no balance at {:.1f} m, which says nothing of "
+                                          "the ground",
+                                          ready.distance_m)};
+    return last_ && last_->state.moving() ? last_->state : undisturbed(rover_, ready.stance, ready.command);
   }
 
   void predict(const PreparedStation& ready, StationPrediction& predicted) {
     const StationState& state = predicted.state;
-    predicted.attitude = state.attitude;
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
     p.by_slip_curve |= state.by_slip_curve;
@@ -162,8 +199,8 @@ class Predictor {
     p.max_slip_ratio.raise(std::abs(state.slip_ratio), s);
     p.max_current_a.raise(largest_current_a(state), s);
     p.max_sinkage_m.raise(deepest_sinkage_m(state), s);
-    if (ready.stance.belly_clearance_m < least_clearance_.value)
-      least_clearance_ = {ready.stance.belly_clearance_m, s};
+    if (!embedded_) embedded_ = !follower_.add(ready, prepared_.stations.size(), state);
+    predicted.aside_m = predicted.aside_m_p05 = predicted.aside_m_p95 = follower_.aside_m();
     predicted.slip_ratio_p05 = predicted.slip_ratio_p50 = predicted.slip_ratio_p95 = state.slip_ratio;
     predicted.current_a_p95 = largest_current_a(state);
     predicted.sinkage_m_p95 = deepest_sinkage_m(state);
@@ -185,17 +222,38 @@ class Predictor {
     predicted.elapsed_s = p.duration_s;
   }
 
+  // The slip limit holds at each station by itself, the others as along a draw. Where the ground holds the
+  // rover, that is the fault, and not the slip of 1 there.
+  void find_broken_limits() {
+    DrivePrediction& p = prediction_;
+    const DriveOutcome& outcome = follower_.finish();
+    for (const RuleRow& row : rule_catalogue()) {
+      const RuleTrace& trace = outcome.of(row.rule);
+      if (row.rule == Rule::kSlipCheck) {
+        if (p.max_slip_ratio.value >= limits_.max_slip_ratio && !p.immobilised)
+          p.broken_limits.push_back({row.rule, p.max_slip_ratio.value, limits_.max_slip_ratio,
+                                     p.max_slip_ratio.distance_m, -1});
+      } else if (trace.tripped && (row.limit || row.rule == Rule::kEmbedding)) {
+        const double limit = row.limit ? limits_.*row.limit : trace.value;
+        p.broken_limits.push_back({row.rule, trace.value, limit,
+                                   prepared_.stations[trace.station].distance_m, trace.wheel});
+      }
+    }
+  }
+
   const RoverModel& rover_;
   const Ground& ground_;
   const SoilBeliefs& beliefs_;
   const DriveLimits& limits_;
   const DriveConditions& conditions_;
   QuasiStaticSolver solver_;
+  StationRules rules_;
+  OutcomeFollower follower_;  // on the mean soils
   DrivePrediction prediction_;
   PreparedDrive prepared_;
-  Peak least_clearance_{1e9, 0.0};
+  std::optional<Balanced> last_;
   double slip_length_ = 0.0;
-  bool draws_alone_ = false;
+  bool embedded_ = false, draws_alone_ = false;
 };
 
 // The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
@@ -217,11 +275,11 @@ std::optional<Error> ground_faults(const RoverModel& rover, const Ground& ground
 // For the draws alone, without a prediction on the mean soils.
 Result<PreparedDrive> prepare(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                               const SoilBeliefs& beliefs, std::span<const PathStation> path,
-                              const DriveLimits& limits, const Progress& progress,
+                              const DriveLimits& limits, const RiskOptions& risk, const Progress& progress,
                               const DriveConditions& conditions) {
   if (path.empty()) throw std::invalid_argument("a path needs a station");
   if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
-  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
+  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, risk, conditions);
   predictor.draws_alone();
   for (const PathStation& station : path)
     if (!predictor.add(station)) break;
@@ -230,26 +288,26 @@ Result<PreparedDrive> prepare(const RoverModel& rover, double gravity_m_s2, cons
 
 }  // namespace
 
-bool OutcomeBars::are_kept(const SegmentRisk& segment) const {
-  return segment.embedding.high < max_embedding && segment.expected_stops_high < max_expected_stops;
+bool OutcomeBars::are_kept(const OutcomeShares& shares) const {
+  return shares.stop.high < max_stop && shares.immobilised.high < max_immobilised &&
+         shares.embedding.high < max_embedding;
 }
 
-bool OutcomeBars::are_passed(const SegmentRisk& segment) const {
-  return segment.embedding.low > max_embedding || segment.expected_stops_low > max_expected_stops;
+bool OutcomeBars::are_passed(const OutcomeShares& shares) const {
+  return shares.stop.low > no_go_stop || shares.immobilised.low > max_immobilised ||
+         shares.embedding.low > max_embedding;
 }
 
 bool OutcomeBars::are_kept(const DriveOutcomes& outcomes) const {
-  if (!outcomes.segments.empty())
-    return std::all_of(outcomes.segments.begin(), outcomes.segments.end(),
-                       [this](const SegmentRisk& segment) { return are_kept(segment); });
-  return outcomes.embedding.high < max_embedding && outcomes.expected_stops_high < max_expected_stops;
+  if (outcomes.segments.empty()) return are_kept(static_cast<const OutcomeShares&>(outcomes));
+  return std::all_of(outcomes.segments.begin(), outcomes.segments.end(),
+                     [this](const OutcomeShares& segment) { return are_kept(segment); });
 }
 
 bool OutcomeBars::are_passed(const DriveOutcomes& outcomes) const {
-  if (!outcomes.segments.empty())
-    return std::any_of(outcomes.segments.begin(), outcomes.segments.end(),
-                       [this](const SegmentRisk& segment) { return are_passed(segment); });
-  return outcomes.embedding.low > max_embedding || outcomes.expected_stops_low > max_expected_stops;
+  if (outcomes.segments.empty()) return are_passed(static_cast<const OutcomeShares&>(outcomes));
+  return std::any_of(outcomes.segments.begin(), outcomes.segments.end(),
+                     [this](const OutcomeShares& segment) { return are_passed(segment); });
 }
 
 double max_station_spacing_m(const RoverModel& rover) {
@@ -263,7 +321,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                       DrawsSoFar* so_far) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
   if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
-  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
+  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, risk, conditions);
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k % 64 == 0 && progress.cancelled())
       return fail(ErrorCode::kCancelled, "the prediction was dismissed");
@@ -283,7 +341,7 @@ Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double
                                                  std::span<const PathStation> path, const DriveLimits& limits,
                                                  const RiskOptions& risk, std::size_t threads,
                                                  Progress& progress, const DriveConditions& conditions) {
-  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, progress, conditions);
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, risk, progress, conditions);
   if (!drive) return fail(drive.error());
   auto outcomes = outcomes_of_draws(rover, gravity_m_s2, beliefs, *drive, limits, risk, threads, progress);
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
@@ -295,9 +353,11 @@ Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const
                              const DriveLimits& limits, const RiskOptions& risk,
                              const PastDriveReport& report, std::size_t threads, Progress& progress,
                              std::vector<ConditionedDraw>& draws, const DriveConditions& conditions) {
-  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, progress, conditions);
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, risk, progress, conditions);
   if (!drive) return fail(drive.error());
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, *drive, limits, risk.checks);
+  RiskOptions on_the_map = risk;
+  on_the_map.relief = nullptr;
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, *drive, limits, on_the_map);
   parallel_for(draws.size(), threads, [&](std::size_t d) {
     condition(driver, random_key(risk.seed, draws[d].number.value_or(d)), report, progress, draws[d]);
   });
@@ -312,7 +372,7 @@ Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gra
                                              const RiskOptions& risk, int tries, std::size_t threads,
                                              Progress& progress, std::vector<ConditionedDraw>& draws,
                                              const DriveConditions& conditions) {
-  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, {}, progress, conditions);
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, {}, risk, progress, conditions);
   if (!drive) return fail(drive.error());
   StretchForecast forecast;
   if (drive->stations.empty()) return forecast;  // no stance: nothing of the soil is learnt there

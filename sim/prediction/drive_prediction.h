@@ -12,8 +12,8 @@
 #include "core/pose.h"
 #include "core/progress.h"
 #include "core/result.h"
-#include "sim/prediction/drive_limits.h"
 #include "sim/prediction/relief_spread.h"
+#include "sim/prediction/rule_catalogue.h"
 #include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/ground.h"
 #include "sim/rover/rover_model.h"
@@ -55,9 +55,12 @@ struct StationPrediction {
   double sinkage_m_p95 = 0.0;  // of the worst wheel
   double tilt_rad_p05 = 0.0, tilt_rad_p95 = 0.0;
   double clearance_m_p05 = 0.0, clearance_m_p95 = 0.0;
+  // Way to the side since the last look at where the rover is, positive to the left: on the mean soils, and
+  // over the draws.
+  double aside_m = 0.0, aside_m_p05 = 0.0, aside_m_p95 = 0.0;
   double risk = 0.0;       // share of draws that break a limit or are immobilised here
-  double stops = 0.0;      // expected stops here, see OutcomeFollower
-  double embedding = 0.0;  // share of draws that are embedded here
+  double stops = 0.0;      // share of draws that halt here first, on this segment
+  double embedding = 0.0;  // share of draws that are then embedded here
 };
 
 struct Immobilisation {
@@ -71,66 +74,70 @@ struct DrawnShare {
   double share = 0.0, low = 0.0, high = 0.0;
 };
 
+// Percentiles over the draws.
+struct DrawnSpread {
+  double p05 = 0.0, p50 = 0.0, p95 = 0.0;
+};
+
 // What the draws say of one rule.
 struct RuleRisk {
   Rule rule = Rule::kSlipCheck;
-  double limit = 0.0;  // slip, rad, A, m, m; of embedding 1
-  // Of the value of each draw that comes nearest to the limit: 5th, 50th and 95th percentile.
-  double value_p05 = 0.0, value_p50 = 0.0, value_p95 = 0.0;
-  DrawnShare trips;                 // share of the draws in which it trips
-  double from_m = 0.0, to_m = 0.0;  // where it trips in any draw; both 0 where it does in none
-  std::size_t station = 0;          // where the value comes nearest most often
-  int wheel = -1;                   // whose it is there; -1 where it is the rover's
+  double limit = 0.0;                        // in SI; kNoLimit where nobody set one
+  DrawnSpread value;                         // of each draw's value that comes nearest to the limit
+  std::optional<DrawnSpread> tripping = {};  // the same of the draws in which it trips
+  DrawnShare trips;                          // share of the draws in which it trips
+  double halts = 0.0;                        // share of the draws that it halts first
+  double from_m = 0.0, to_m = 0.0;           // where it trips in any draw; both 0 where it does in none
+  // Where the value comes nearest most often, of the draws in which it trips if there are any, and whose it
+  // is there; -1 where it is the rover's.
+  std::size_t station = 0;
+  int wheel = -1;
 };
 
-// Stops and embeddings on one kind of ground: the mean number of stops there, and the share of draws that are
-// embedded there.
+// How drives end over the draws, on the whole way or on a part of it. A halt ends a drive, whichever rule
+// asks for it; the upper ends count draws of which the solver found no end as bad.
+struct OutcomeShares {
+  DrawnShare stop;         // at least one halt, an embedding among them
+  DrawnShare immobilised;  // the first halt is where the ground holds the rover
+  DrawnShare embedding;    // the wheels dig in before the first halt
+};
+
+// The same of one kind of ground, and of one stretch of the way: the mean number of first halts there, one
+// for each segment, and of embeddings.
 struct GroundRisk {
   std::optional<std::size_t> soil;  // empty: unknown ground
   double length_m = 0.0;
   double expected_stops = 0.0;
   double embedding = 0.0;
 };
-
-// Percentiles over the draws.
-struct DrawnSpread {
-  double p05 = 0.0, p50 = 0.0, p95 = 0.0;
-};
-
-// The same of one stretch of the way.
 struct StretchRisk {
   double from_m = 0.0, to_m = 0.0;
   double expected_stops = 0.0;
   double embedding = 0.0;
   DrawnSpread shortfall_m = {};  // behind to_m when the wheels have rolled that far, see ShortfallFollower
+  // To the left of the path and of its heading, without a look at where it is, see DriftFollower.
+  DrawnSpread drift_m = {}, turned_rad = {};
 };
 
-// A part of a long drive that is decided by itself: a sol's drive. Stops and embeddings on it, of the draws
-// in which the rover comes to it.
-struct SegmentRisk {
+// A part of a long drive that is decided by itself: a sol's drive, of the draws in which the rover comes to
+// it.
+struct SegmentRisk : OutcomeShares {
   double from_m = 0.0, to_m = 0.0;
-  DrawnShare stop;       // draws with at least one stop on it
-  DrawnShare embedding;  // draws that are embedded on it
-  double expected_stops = 0.0, expected_stops_low = 0.0, expected_stops_high = 0.0;
   double reached = 0.0;  // share of the draws that come to it
 };
 
-// Stops, which cost a sol each, and embeddings, which may cost the rover; see OutcomeFollower.
-struct DriveOutcomes {
-  DrawnShare stop;       // drives with at least one stop
-  DrawnShare embedding;  // drives that end embedded
-  DrawnShare completed;  // drives with neither
-  double expected_stops = 0.0, expected_stops_low = 0.0,
-         expected_stops_high = 0.0;  // mean with 90 % interval
-  std::vector<RuleRisk> rules;       // in the order of Rule
+struct DriveOutcomes : OutcomeShares {
+  DrawnShare completed;  // drives that come to their end without a halt
+  // Halts until the drive is through, each followed by another sol: mean with 90 % interval.
+  double expected_stops = 0.0, expected_stops_low = 0.0, expected_stops_high = 0.0;
+  std::vector<RuleRisk> rules;  // in the order of Rule
   std::vector<GroundRisk>
       grounds;  // those that the path meets; with a wheel on unknown ground the rover is there
   std::vector<StretchRisk> stretches;  // of equal length, 10 m or more, at most 100
   std::vector<SegmentRisk> segments;   // of RiskOptions::segment_m; empty where that is 0
-  // What is left where nothing ever went wrong on unknown ground.
-  DrawnShare embedding_on_known;
-  double expected_stops_on_known = 0.0;
-  double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
+  OutcomeShares on_known;              // what is left where nothing ever halts a drive on unknown ground
+  double unsolved = 0.0;               // share of the draws in which the solver gave up somewhere
+  double effective_draws = 0.0;        // (sum of the weights)^2 / sum of their squares
 };
 
 // The drive on the mean soils at one end of what is believed of c1 and c2.
@@ -201,7 +208,10 @@ struct DrivePrediction {
   std::optional<Immobilisation> immobilised;  // on the mean soils; the stations end there
   // Where the ground is too uneven for the suspension, on whatever soil; the path is driven no further.
   std::optional<Immobilisation> without_stance;
-  std::vector<std::string> broken_limits;  // on the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
+  // Where the solver gave up on the mean soils, which is no statement about the ground: the drive is taken to
+  // go on as it came.
+  std::optional<Immobilisation> unsolved;
+  std::vector<BrokenLimit> broken_limits;  // on the mean soils, with the slip of each station by itself
   // The share of soil draws in which the drive breaks a limit or ends immobilised, with a 90 % Wilson
   // interval.
   int draws = 0;
@@ -218,17 +228,19 @@ struct DrivePrediction {
   std::optional<ScoutDrive> scout;       // nothing where nothing goes wrong in any draw, or no ground decides
 };
 
-// The bars that decide a drive.
+// The bars that decide a drive. An interval below the lower bar keeps it, one above the upper passes it.
 struct OutcomeBars {
-  double max_embedding = 0.01;  // probability
-  double max_expected_stops = 0.5;
+  // A halt costs the rest of a sol: 116 of Curiosity's 738 drives had one, 16 %. Drives that are more likely
+  // to end early than not are planned anew.
+  double max_stop = 0.2, no_go_stop = 0.5;
+  // The loss of the rover, or of a season: Spirit at Troy, Opportunity at Purgatory. Both bars are one.
+  double max_immobilised = 0.01, max_embedding = 0.01;
 
-  // Both intervals are under their bars, or one of them is over its bar. Of a drive in segments: on each of
-  // them, or on any.
+  bool are_kept(const OutcomeShares& shares) const;
+  bool are_passed(const OutcomeShares& shares) const;
+  // Of a drive in segments: on each of them, or on any.
   bool are_kept(const DriveOutcomes& outcomes) const;
   bool are_passed(const DriveOutcomes& outcomes) const;
-  bool are_kept(const SegmentRisk& segment) const;
-  bool are_passed(const SegmentRisk& segment) const;
   bool decide(const DriveOutcomes& outcomes) const { return are_kept(outcomes) || are_passed(outcomes); }
 };
 
@@ -248,8 +260,8 @@ struct ConditionedDraw {
 // only, so that routes compared under one seed meet the same ground.
 struct RiskOptions {
   int draws = 24;
-  // Where this is more than `draws`, these are only the first batch: more are taken until the intervals of
-  // embedding and expected stops lie on one side of their bars, or there are so many.
+  // Where this is more than `draws`, these are only the first batch: more are taken until the bars decide, or
+  // there are so many.
   int max_draws = 0;
   OutcomeBars bars = {};
   SlipChecks checks = {};

@@ -47,28 +47,6 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
 
 }  // namespace
 
-double largest_current_a(const StationState& state) {
-  double largest = 0.0;
-  for (const WheelState& wheel : state.wheels) largest = std::max(largest, std::abs(wheel.current_a));
-  return largest;
-}
-
-double deepest_sinkage_m(const StationState& state) {
-  double deepest = 0.0;
-  for (const WheelState& wheel : state.wheels) deepest = std::max(deepest, wheel.sinkage_m);
-  return deepest;
-}
-
-bool breaks(const DriveLimits& limits, const StationState& state) {
-  return std::abs(state.slip_ratio) > limits.max_slip_ratio ||
-         largest_current_a(state) > limits.max_current_a || deepest_sinkage_m(state) > limits.max_sinkage_m ||
-         state.attitude.tilt_rad() > limits.max_tilt_rad;
-}
-
-bool breaks(const DriveLimits& limits, const Stance& stance) {
-  return stance.belly_clearance_m < limits.min_clearance_m;
-}
-
 Effort effort_of(const PreparedStation& station, const StationState& state) {
   Effort effort;
   if (station.command.turn_in_place) {
@@ -84,11 +62,21 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   return effort;
 }
 
+StationState undisturbed(const RoverModel& rover, const Stance& stance, const DriveCommand& command) {
+  StationState state;
+  state.along_m_s = state.forward_m_s = command.turn_in_place ? 0.0 : command.speed_m_s;
+  state.yaw_rate_rad_s =
+      command.turn_in_place ? command.turn_rate_rad_s : command.curvature_1_m * command.speed_m_s;
+  state.attitude = stance.attitude;
+  state.wheels = PerWheel<WheelState>(rover.wheels.size());
+  return state;
+}
+
 std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
                                             const SoilBeliefs& beliefs, const PreparedDrive& drive,
                                             const DriveLimits& limits, const RiskOptions& options,
                                             std::size_t threads, Progress& progress) {
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks, options.relief.get());
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options);
   std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
   parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
     const DrawnDrive drawn = driver.run(random_key(options.seed, draw), {}, progress);
@@ -101,7 +89,7 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
                  std::size_t threads, Progress& progress, DrivePrediction& prediction, DrawsSoFar* so_far) {
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks, options.relief.get());
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options);
   const DrawsSoFar kept = so_far && *so_far ? *so_far : std::make_shared<DrawnDrives>();
   if (so_far) *so_far = kept;
   std::vector<DrawnDrive>& drives = kept->all;
@@ -112,11 +100,12 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
       drives.clear();  // some were cut short
       return false;
     }
-    summarise(drives, drive.stations, limits, options.segment_m, prediction);
+    summarise(drives, drive.stations, limits, options, prediction);
   } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
 
   prediction.scout = scout_drive(drives, drive.stations, beliefs, prediction.outcomes, options.bars);
-  fill_events(drives, prediction.stations);
+  if (!drive.stations.empty())
+    fill_events(drives, Segments(drive.stations, options.segment_m), prediction.stations);
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
     StationPrediction& station = prediction.stations[k];
     fill_station(drives, k, station);

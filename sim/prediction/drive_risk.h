@@ -23,21 +23,15 @@ struct PreparedStation {
   std::optional<RoverBalance::Vector> on_means;
 };
 
-// The maximum current and sinkage over the wheels of a state.
-double largest_current_a(const StationState& state);
-double deepest_sinkage_m(const StationState& state);
-
-// Whether the motion at a station breaks a limit that depends on the soil, that of tilt among them.
-bool breaks(const DriveLimits& limits, const StationState& state);
-// Whether the clearance over the ground, before the wheels sink, breaks its limit.
-bool breaks(const DriveLimits& limits, const Stance& stance);
-
 // Time for the station's part of the drive and energy spent in it, at the station's balance.
 struct Effort {
   double duration_s = 0.0;
   double energy_j = 0.0;
 };
 Effort effort_of(const PreparedStation& station, const StationState& state);
+
+// The motion as it is commanded, without slip, sinkage or current: where nothing better is known.
+StationState undisturbed(const RoverModel& rover, const Stance& stance, const DriveCommand& command);
 
 // The whole path as the draws drive it.
 struct PreparedDrive {

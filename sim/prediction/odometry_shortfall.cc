@@ -1,6 +1,8 @@
 #include "sim/prediction/odometry_shortfall.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "sim/wheel/slip_ratio.h"
 
@@ -31,6 +33,23 @@ std::vector<float> ShortfallFollower::finish(bool stuck) {
     shortfall_m_.push_back(static_cast<float>(wanted_m - come_m));
   }
   return shortfall_m_;
+}
+
+void DriftFollower::add(double way_m, double side_slip_rad, double turned_rad) {
+  turned_rad_ += turned_rad;
+  drift_m_ += way_m * std::tan(side_slip_rad + turned_rad_);
+  come_m_ += way_m;
+  while (drifts_m_.size() < wanted_m_.size() && wanted_m_[drifts_m_.size()] <= come_m_ + 1e-9) {
+    drifts_m_.push_back(static_cast<float>(drift_m_));
+    turns_rad_.push_back(static_cast<float>(turned_rad_));
+  }
+}
+
+void DriftFollower::finish(std::vector<float>& drift_m, std::vector<float>& turned_rad) {
+  drifts_m_.resize(wanted_m_.size(), static_cast<float>(drift_m_));
+  turns_rad_.resize(wanted_m_.size(), static_cast<float>(turned_rad_));
+  drift_m = std::move(drifts_m_);
+  turned_rad = std::move(turns_rad_);
 }
 
 }  // namespace slipway::sim

@@ -32,4 +32,25 @@ class ShortfallFollower {
   double roll_per_way_ = 1.0;  // of the last part
 };
 
+// How far beside its path a rover comes, and how far from its heading, that is commanded by its wheels without
+// a look at where it is: side slip adds to the way aside, unequal slip left and right to the heading, which
+// in turn leads aside.
+class DriftFollower {
+ public:
+  // The distances along the path at which it is asked for, rising, in metres.
+  explicit DriftFollower(const std::vector<double>& come_m) : wanted_m_(come_m) {}
+
+  // The rover comes `way_m` further at this side slip, while its heading leaves that of the path by
+  // `turned_rad`; angles are positive to the left.
+  void add(double way_m, double side_slip_rad, double turned_rad);
+  // To the left of the path and of its heading, at each of the distances; the last values where it did not
+  // come there.
+  void finish(std::vector<float>& drift_m, std::vector<float>& turned_rad);
+
+ private:
+  const std::vector<double>& wanted_m_;
+  std::vector<float> drifts_m_, turns_rad_;
+  double come_m_ = 0.0, drift_m_ = 0.0, turned_rad_ = 0.0;
+};
+
 }  // namespace slipway::sim

@@ -42,7 +42,8 @@ class ScoutSearch {
       : drives_(drives), stations_(stations), bars_(bars), soil_(soil), wrong_(stations.size(), 0.0) {
     slip_error_ = unresolved_slip_error(beliefs.of(soil));
     for (const DrawnDrive& drive : drives)
-      for (const OutcomeEvent& event : drive.outcome.events) wrong_[event.station] += drive.weight;
+      if (const DriveEnding ending = drive.outcome.ending(); ending.halt)
+        wrong_[ending.halt->station] += drive.weight;
   }
 
   std::optional<ScoutDrive> best() const {
@@ -103,12 +104,11 @@ class ScoutSearch {
 
   // The slip of a draw between two stations; 1 beyond where the ground holds the rover.
   double slip_of(const DrawnDrive& drive, std::size_t first, std::size_t end) const {
-    constexpr double kMaxSlip = 0.999;
     double come_m = 0.0, rolled_m = 0.0;
     for (std::size_t s = first + 1; s < end; ++s) {
       const double slip = s < drive.slip.size() ? static_cast<double>(drive.slip[s]) : 1.0;
       come_m += stations_[s].drive_m;
-      rolled_m += stations_[s].drive_m / (1.0 - std::min(slip, kMaxSlip));
+      rolled_m += stations_[s].drive_m / (1.0 - std::min(slip, 0.999));
     }
     return 1.0 - come_m / rolled_m;
   }
@@ -128,9 +128,10 @@ class ScoutSearch {
       scout.drawn_slip.push_back(static_cast<float>(slip_of(drive, first, end)));
       slips.emplace_back(scout.drawn_slip.back(), drive.weight);
       all += drive.weight;
-      for (const OutcomeEvent& event : drive.outcome.events)
-        if (event.station >= first && event.station < end)
-          (event.rule == Rule::kEmbedding ? scout.embedding : scout.expected_stops) += drive.weight;
+      const DriveEnding ending = drive.outcome.ending();
+      if (!ending.halt || ending.halt->station < first || ending.halt->station >= end) continue;
+      scout.expected_stops += drive.weight;
+      if (ending.embedded) scout.embedding += drive.weight;
     }
     if (all <= 0.0) return scout;
     scout.embedding /= all;
@@ -140,57 +141,36 @@ class ScoutSearch {
     return scout;
   }
 
-  // Sums over the draws, weighted by how likely each makes a measurement.
-  struct Sums {
-    double weight = 0.0, squares = 0.0, stops = 0.0, stops_squared = 0.0, stopped = 0.0, embedded = 0.0;
-
-    void add(const DrawnDrive& drive, double w) {
-      const auto count = static_cast<double>(drive.outcome.stops);
-      weight += w;
-      squares += w * w;
-      stops += w * count;
-      stops_squared += w * count * count;
-      stopped += drive.outcome.stops > 0 ? w : 0.0;
-      embedded += drive.outcome.embedded ? w : 0.0;
-    }
-  };
-
   void weigh(double all, ScoutDrive& scout) const {
-    Sums before;
-    std::array<Sums, kSlipBins> after;
+    EndingSums before;
+    std::array<EndingSums, kSlipBins> after;
     for (std::size_t d = 0; d < scout.drawn_slip.size(); ++d) {
       const double weight = drives_[d].weight / all;
-      before.add(drives_[d], weight);
+      const DriveEnding ending = drives_[d].outcome.ending();
+      before.add(weight, ending, drives_[d].unsolved);
       const auto shares = measured_shares(scout.drawn_slip[d], scout.slip_error, scout.to_m - scout.from_m);
-      for (std::size_t bin = 0; bin < kSlipBins; ++bin) after[bin].add(drives_[d], weight * shares[bin]);
+      for (std::size_t bin = 0; bin < kSlipBins; ++bin)
+        after[bin].add(weight * shares[bin], ending, drives_[d].unsolved);
     }
     const double scale = kDrawsAfterwards / static_cast<double>(scout.drawn_slip.size());
     scout.worth_sols = cost(before);
-    for (const Sums& sums : after) {
-      if (sums.weight <= 0.0) continue;
+    for (const EndingSums& sums : after) {
+      if (sums.weight() <= 0.0) continue;
       scout.worth_sols -= cost(sums);
-      const DriveOutcomes then = outcomes(sums, scale);
+      const OutcomeShares then = sums.shares(scale);
       if (bars_.are_kept(then))
-        scout.go += sums.weight;
+        scout.go += sums.weight();
       else if (bars_.are_passed(then))
-        scout.no_go += sums.weight;
+        scout.no_go += sums.weight();
     }
     scout.worth_sols = std::max(0.0, scout.worth_sols);  // rounding
   }
 
-  // Of the better of driving and not driving, times the weight of the sums.
-  double cost(const Sums& sums) const {
-    const double of_embedding = bars_.max_expected_stops / bars_.max_embedding;
-    return std::min(sums.stops + of_embedding * sums.embedded, bars_.max_expected_stops * sums.weight);
-  }
-
-  DriveOutcomes outcomes(const Sums& sums, double scale) const {
-    const double n = scale * sums.weight * sums.weight / sums.squares;
-    DriveOutcomes out;
-    out.embedding = share_of_draws(sums.embedded / sums.weight, n);
-    out.stop = share_of_draws(sums.stopped / sums.weight, n);
-    fill_expected_stops(sums.stops / sums.weight, sums.stops_squared / sums.weight, n, out);
-    return out;
+  // Of the better of driving and not driving, times the weight of the sums. To turn back costs as much as a
+  // drive that is as likely to halt as not.
+  double cost(const EndingSums& sums) const {
+    const double of_embedding = bars_.no_go_stop / bars_.max_embedding;
+    return std::min(sums.stopped() + of_embedding * sums.embedded(), bars_.no_go_stop * sums.weight());
   }
 
   const std::vector<DrawnDrive>& drives_;

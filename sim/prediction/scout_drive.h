@@ -16,10 +16,10 @@ inline constexpr double kScoutLength_m = 5.0;
 // those count where most does, each from its beginning and from the place where most goes wrong.
 //
 // The worth is the expected value of sample information [Raiffa & Schlaifer 1961], with the draws as the
-// belief: a drive costs its stops, and where it embeds the rover max_expected_stops / max_embedding of them,
-// as the bars have it; not to drive costs max_expected_stops. It is the expected cost of the better of the
-// two as things are, less what is expected of the better of the two when the slip is known. It is never
-// below 0. What the scout drive itself risks is not taken off; it is given beside it.
+// belief: a drive costs a sol where it halts, and where it embeds the rover no_go_stop / max_embedding of
+// them, as the bars have it; not to drive costs no_go_stop. It is the expected cost of the better of the two
+// as things are, less what is expected of the better of the two when the slip is known. It is never below 0.
+// What the scout drive itself risks is not taken off; it is given beside it.
 //
 // The verdicts after it are at as many draws as a check takes at most. Nothing where nothing goes wrong in
 // any draw.

@@ -185,6 +185,10 @@ double RoverModel::body_mass_kg() const {
          2.0 * bogie_mass_kg();
 }
 
+double RoverModel::circumscribed_m() const {
+  return 0.5 * std::hypot(body_length_m, body_width_m);
+}
+
 double RoverModel::smallest_wheel_radius_m() const {
   double radius = std::numeric_limits<double>::infinity();
   for (const WheelModel& wheel : wheels) radius = std::min(radius, wheel.radius_m);

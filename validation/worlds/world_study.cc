@@ -8,7 +8,7 @@
 
 #include "core/parallel_for.h"
 #include "core/random.h"
-#include "planner/judge/drive_decision.h"
+#include "planner/judge/drive_verdict.h"
 #include "planner/make_plan.h"
 #include "planner/problem/terrain_ground.h"
 #include "validation/report/csv_table.h"
@@ -74,7 +74,7 @@ class WorldTrial {
     }
     if (scores_.size() == before) {
       score.truth = kTruths[0];
-      score.decision = planner::describe(planner::Decision::kNoGo);
+      score.decision = planner::describe(planner::Verdict::kNoGo);
       scores_.push_back(score);
     }
     return {};
@@ -90,7 +90,7 @@ class WorldTrial {
         *given_.rover, given_.gravity_m_s2, planner::TerrainGround(given_.terrain, given_.soil_map),
         given_.beliefs, stations, given_.limits, risk, given_.threads, progress_, given_.conditions);
     if (!drive) return fail(drive.error());
-    score.decision = planner::describe(planner::decide(given_, *drive).decision);
+    score.decision = planner::describe(planner::judge_drive(given_, *drive).verdict);
     score.length_m = stations.back().distance_m;
     score.duration_s = drive->duration_s;
     score.stop = drive->outcomes.stop.share;

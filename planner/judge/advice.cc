@@ -1,0 +1,103 @@
+#include "planner/judge/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "planner/judge/drive_verdict.h"
+#include "planner/judge/verdict_words.h"
+#include "planner/problem/terrain_ground.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr double kMinDrive_m = 4.0;
+constexpr int kMaxTries = 2;
+// The share of the lower bar of halts that a beginning may use up: its interval is narrower only with more
+// draws.
+constexpr double kShareOfBar = 0.5;
+
+// How far the drive goes before something that may keep it from a GO.
+double promising_m(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                   const DriveVerdict& verdict) {
+  double least = drive.stations.empty() ? 0.0 : drive.stations.back().station.distance_m;
+  for (const JudgedRule& rule : verdict.rules)
+    if (rule.verdict != Verdict::kGo && rule.at_m) least = std::min(least, *rule.at_m - 1.0);
+  double halted = 0.0;
+  for (const sim::StationPrediction& at : drive.stations) {
+    halted += at.stops;
+    if (at.embedding > 0.0 || halted > kShareOfBar * problem.risk.bars.max_stop)
+      return std::min(least, at.station.distance_m - 1.0);
+  }
+  return least;
+}
+
+std::vector<sim::PathStation> beginning(const std::vector<sim::PathStation>& path, double length_m) {
+  const auto end = std::find_if(path.begin(), path.end(), [&](const sim::PathStation& station) {
+    return station.distance_m > length_m;
+  });
+  return {path.begin(), end};
+}
+
+}  // namespace
+
+std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vector<sim::PathStation>& path,
+                                    const sim::DrivePrediction& drive, const DriveVerdict& verdict,
+                                    Progress& progress) {
+  if (verdict.verdict == Verdict::kGo || drive.draws == 0) return std::nullopt;
+  double length_m = promising_m(problem, drive, verdict);
+  for (int tried = 0; tried < kMaxTries && length_m >= kMinDrive_m; ++tried, length_m *= 0.5) {
+    const std::vector<sim::PathStation> shorter = beginning(path, length_m);
+    if (shorter.empty() || shorter.back().distance_m < kMinDrive_m) return std::nullopt;
+    const auto predicted =
+        sim::predict_drive(*problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
+                           problem.beliefs, shorter, problem.limits, problem.risk, problem.threads, progress,
+                           problem.conditions);
+    if (!predicted) return std::nullopt;
+    if (judge_drive(problem, *predicted).verdict != Verdict::kGo) continue;
+    const sim::PathStation& end = shorter.back();
+    Advice advice{.kind = Advice::Kind::kShorterDrive};
+    advice.to_m = end.distance_m;
+    advice.x_m = end.pose.x_m;
+    advice.y_m = end.pose.y_m;
+    advice.words = fmt::format("end the drive at {:.1f} m, at ({:.1f}, {:.1f}): to there it is a GO, with a halt "
+                               "in {} of {} draws",
+                               advice.to_m, advice.x_m, advice.y_m, percent(predicted->outcomes.stop.share),
+                               predicted->draws);
+    return advice;
+  }
+  return std::nullopt;
+}
+
+std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                                  const DriveVerdict& verdict) {
+  constexpr double kLeastHope = 0.1;
+  const sim::OutcomeBars& bars = problem.risk.bars;
+  if (verdict.verdict != Verdict::kUnknown || !drive.scout) return std::nullopt;
+  const sim::ScoutDrive& scout = *drive.scout;
+  if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding || scout.expected_stops >= bars.no_go_stop)
+    return std::nullopt;
+  Advice advice{.kind = Advice::Kind::kScoutDrive};
+  advice.to_m = scout.from_m;
+  advice.x_m = scout.from.x_m;
+  advice.y_m = scout.from.y_m;
+  advice.words = fmt::format("drive {:.0f} m onto the ground at {:.0f} m, at ({:.1f}, {:.1f}), and measure the "
+                             "slip there: that makes it a GO with a probability of {}",
+                             scout.to_m - scout.from_m, scout.from_m, advice.x_m, advice.y_m,
+                             percent(scout.go));
+  return advice;
+}
+
+std::optional<Advice> other_route(const std::vector<Route>& routes) {
+  if (routes.empty() || routes.front().verdict() == Verdict::kGo) return std::nullopt;
+  const auto go = std::find_if(routes.begin(), routes.end(),
+                               [](const Route& route) { return route.verdict() == Verdict::kGo; });
+  if (go == routes.end()) return std::nullopt;
+  Advice advice{.kind = Advice::Kind::kOtherRoute};
+  advice.route = go->rank;
+  advice.words = fmt::format("take route {}, which is a GO: it costs {:.2f} where this one costs {:.2f}",
+                             go->rank, go->ranked_cost, routes.front().ranked_cost);
+  return advice;
+}
+
+}  // namespace slipway::planner

@@ -1,0 +1,34 @@
+#include "planner/problem/verdict.h"
+
+namespace slipway::planner {
+
+std::string_view describe(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGo:
+      return "go";
+    case Verdict::kNoGo:
+      return "no_go";
+    case Verdict::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string_view verdict_words(std::string_view name) {
+  if (name == describe(Verdict::kGo)) return "GO";
+  return name == describe(Verdict::kNoGo) ? "NO-GO" : "UNKNOWN";
+}
+
+std::string_view describe(Advice::Kind kind) {
+  switch (kind) {
+    case Advice::Kind::kShorterDrive:
+      return "shorter_drive";
+    case Advice::Kind::kOtherRoute:
+      return "other_route";
+    case Advice::Kind::kScoutDrive:
+      break;
+  }
+  return "scout_drive";
+}
+
+}  // namespace slipway::planner
