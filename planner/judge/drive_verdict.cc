@@ -21,9 +21,9 @@ struct JudgedShare {
   double sim::OutcomeBars::*no_go_above;
 };
 constexpr std::array kShares{
-    JudgedShare{"embedding", "the wheels dig in", &sim::OutcomeShares::embedding,
+    JudgedShare{"embedding", "embedded", &sim::OutcomeShares::embedding,
                 &sim::OutcomeBars::max_embedding, &sim::OutcomeBars::max_embedding},
-    JudgedShare{"immobilised", "the ground holds the rover", &sim::OutcomeShares::immobilised,
+    JudgedShare{"immobilised", "immobilised", &sim::OutcomeShares::immobilised,
                 &sim::OutcomeBars::max_immobilised, &sim::OutcomeBars::max_immobilised},
     JudgedShare{"stop", "a halt", &sim::OutcomeShares::stop, &sim::OutcomeBars::max_stop,
                 &sim::OutcomeBars::no_go_stop}};
@@ -59,11 +59,6 @@ class Judging {
   }
 
  private:
-  static int severity(Verdict verdict) {
-    if (verdict == Verdict::kNoGo) return 2;
-    return verdict == Verdict::kUnknown ? 1 : 0;
-  }
-
   void keep_areas() {
     if (problem_.keep_out.empty() && problem_.keep_in.empty()) return;
     const KeepOut zones(problem_.keep_out, *problem_.rover, problem_.keep_in);
@@ -163,6 +158,7 @@ class Judging {
                       .high = share.high,
                       .go_below = go_below,
                       .no_go_above = no_go_above};
+      rule.over_draws = true;
       rule.words = share_words(judged.what, share, go_below, no_go_above, rule.verdict);
       if (worst != &drive_.outcomes) {
         const auto* segment = static_cast<const sim::SegmentRisk*>(worst);
@@ -184,7 +180,7 @@ class Judging {
       reasons.push_back(rule.words);
     }
     const std::string halts = main_halt_words(problem_, drive_);
-    const bool by_draws = !out_.rules.empty() && is_share(out_.rules.front().name);
+    const bool by_draws = !out_.rules.empty() && out_.rules.front().over_draws;
     if (out_.verdict == Verdict::kGo) {
       std::string why = fmt::format("every limit holds on the mean soils");
       if (drive_.draws > 0)
@@ -205,11 +201,6 @@ class Judging {
       reasons.push_back(fmt::format("in {} of the draws the solver gave up somewhere; upper ends count these "
                                     "as halted",
                                     percent(drive_.outcomes.unsolved)));
-  }
-
-  static bool is_share(std::string_view name) {
-    return std::any_of(kShares.begin(), kShares.end(),
-                       [&](const JudgedShare& share) { return share.name == name; });
   }
 
   const PlanProblem& problem_;

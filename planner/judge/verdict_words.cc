@@ -102,8 +102,8 @@ std::string share_words(std::string_view what, const sim::DrawnShare& share, dou
 std::string_view cause_of(const sim::RuleRisk& rule, const sim::DrivePrediction& drive) {
   const sim::RuleRow& row = sim::row_of(rule.rule);
   if (!row.cause.empty()) return row.cause;
-  if (rule.station >= drive.stations.size()) return "soil";
-  const sim::StationPrediction& at = drive.stations[rule.station];
+  if (drive.stations.empty()) return "soil";
+  const sim::StationPrediction& at = drive.stations[std::min(rule.station, drive.stations.size() - 1)];
   const double climb = -at.attitude.pitch_rad * (at.station.backwards ? -1.0 : 1.0);
   const double side = std::abs(at.attitude.roll_rad);
   constexpr double kSteep_rad = rad_from_deg(5.0);

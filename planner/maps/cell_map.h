@@ -7,6 +7,7 @@
 
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "planner/maps/cell_ground.h"
 #include "planner/maps/map_kind.h"
 #include "planner/maps/slope_figures.h"
 #include "planner/problem/problem.h"
@@ -50,6 +51,14 @@ class CellMap {
   // The shape of the ground alone forbids nothing.
   bool may_drive(double gradient_x, double gradient_y, double rise_m) const;
   float verdict_on(const Ground& ground, double gradient_x, double gradient_y) const;
+  int drive_reach(double cell_m) const;
+  // Of a cell by itself.
+  float own_value(const dem::SoilMap& soils, const CellGround& cells, std::size_t i,
+                  const Eigen::Vector2d& centre, std::vector<const Ground*>& known) const;
+  void take_worst_on_way(const dem::CellWindow& window, int reach_x, int reach_y,
+                         const std::vector<float>& own, std::vector<float>& out) const;
+  bool is_on_way(int down, int right, int reach_x, int reach_y) const;
+  float worse(float here, float there) const;
 
   CellMapProblem problem_;
   bool with_risk_;

@@ -5,16 +5,13 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "core/parallel_for.h"
-#include "planner/search/metre.h"
-#include "sim/prediction/likely_soils.h"
+#include "planner/search/ground_tables.h"
+#include "sim/prediction/drawn_ground.h"
 
 namespace slipway::planner {
 namespace {
 
-constexpr std::size_t kLikelySoils = 40;
 constexpr double kStep_rad = rad_from_deg(2.5);
-constexpr double kLikelyNodesToLimit = 4.0;
 constexpr int kHeadings = 72;      // of slip
 constexpr int kRiskHeadings = 24;  // of probabilities, which take longer
 constexpr double kSlopeNode = 0.0025, kHeadingNode = 0.01;
@@ -29,84 +26,32 @@ PitchRoll on_plane(double uphill, double leftward) {
   return {-std::atan(uphill), std::asin(leftward / std::sqrt(1.0 + uphill * uphill + leftward * leftward))};
 }
 
-double normal_tail(double z) {
-  return 0.5 * std::erfc(z / std::numbers::sqrt2);
-}
-
-// The probability that the real slip is over a limit where the model's is this.
-double slip_over(double limit, const sim::TableEntry& entry, double slip_error) {
-  if (entry.immobile) return 1.0;
-  const double slip = std::clamp(entry.slip_ratio, 1e-4, 1.0 - 1e-9);
-  if (limit >= 1.0) return 0.0;
-  if (slip_error <= 0.0) return slip > limit ? 1.0 : 0.0;
-  return normal_tail(std::log(std::log1p(-limit) / std::log1p(-slip)) / slip_error);
-}
-
 }  // namespace
 
 GroundOnSlopes::GroundOnSlopes(const PlanProblem& problem, const sim::SoilDistribution& belief, bool unknown,
-                               bool with_risk)
-    : problem_(problem),
-      unknown_(unknown),
-      slip_error_(belief.slip_error),
-      table_{sim::SlipTable(*problem.rover, problem.gravity_m_s2, belief.mean, kMaxMapSlope_rad, kStep_rad,
-                            problem.conditions),
-             sim::SlipTable(*problem.rover, problem.gravity_m_s2, weak_soil(belief), kMaxMapSlope_rad,
-                            kStep_rad, problem.conditions),
-             belief.correlation_length_m,
-             {}} {
-  if (!with_risk) return;
-  const sim::LevelGroundTest drives_level(*problem.rover, problem.gravity_m_s2);
-  const std::vector<sim::LikelySoil> soils = sim::likely_soils(belief, kLikelySoils, drives_level);
-  std::vector<std::optional<sim::SlipTable>> tables(soils.size());
-  parallel_for(soils.size(), problem.threads, [&](std::size_t i) {
-    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soils[i].soil, problem.max_tilt_rad(),
-                      problem.max_tilt_rad() / kLikelyNodesToLimit, problem.conditions);
-  });
-  double sum = 0.0;
-  for (const sim::LikelySoil& soil : soils) sum += soil.weight;
-  for (std::size_t i = 0; i < soils.size(); ++i)
-    table_.likely.push_back({std::move(*tables[i]), soils[i].weight / sum});
+                               std::optional<double> distance_m)
+    : unknown_(unknown),
+      slips_(*problem.rover, problem.gravity_m_s2, unknown ? weak_soil(belief) : belief.mean,
+             kMaxMapSlope_rad, kStep_rad, problem.conditions) {
+  if (distance_m) drives_.emplace(problem, belief, unknown, *distance_m);
 }
 
 double GroundOnSlopes::slip_at(double uphill, double leftward) const {
   const PitchRoll lie = on_plane(uphill, leftward);
-  const auto entry = (unknown_ ? table_.weak : table_.mean).at(lie.pitch_rad, lie.roll_rad);
+  const auto entry = slips_.at(lie.pitch_rad, lie.roll_rad);
   return !entry || entry->immobile ? 1.0 : entry->slip_ratio;
 }
 
 SlopeFigures GroundOnSlopes::at(double uphill, double leftward) const {
-  const PitchRoll lie = on_plane(uphill, leftward);
-  SlopeFigures figures{slip_at(uphill, leftward), 0.0, 0.0};
-  const sim::SlipChecks& checks = problem_.risk.checks;
-  const double wheel_m = problem_.rover->smallest_wheel_radius_m();
-  const bool digs_in = checks.slip_check_every_m > checks.embedding_turns * 2.0 * std::numbers::pi * wheel_m;
-  for (const LikelyTable& likely : table_.likely) {
-    const auto entry = likely.slip.at(lie.pitch_rad, lie.roll_rad);
-    if (!entry) return {figures.slip, 1.0, 1.0};  // steeper than the tilt limit
-    const bool stalls = entry->current_a > problem_.limits.max_current_a;
-    const bool too_deep = entry->sinkage_m > checks.embedding_sinkage_share * wheel_m;
-    figures.stop +=
-        likely.weight * (stalls ? 1.0 : slip_over(problem_.limits.max_slip_ratio, *entry, slip_error_));
-    figures.embedding +=
-        likely.weight *
-        (too_deep ? 1.0 : (digs_in ? slip_over(checks.embedding_slip_ratio, *entry, slip_error_) : 0.0));
-  }
-  const auto metre = expected_metre(problem_, table_, unknown_, lie.pitch_rad, lie.roll_rad);
-  const double patch_m = std::max(correlation_length_m(), 1.0);
-  // Where the mean soil holds the rover, half of the soils do.
-  figures.stop = std::clamp(std::max(figures.stop, metre ? metre->figures.risk * patch_m : 0.5), 0.0, 1.0);
-  figures.embedding =
-      std::clamp(std::max(figures.embedding, metre ? metre->figures.embedding * patch_m : 0.0), 0.0, 1.0);
-  if (!unknown_) return figures;
-  figures.stop = std::max(figures.stop, sim::kWeakShare);
-  figures.embedding = std::max(figures.embedding, sim::kWeakShare);
+  SlopeFigures figures{slip_at(uphill, leftward), 0.0, 0.0, 0.0};
+  if (!drives_) return figures;
+  const PlaneDrive drive = drives_->at(uphill, leftward);
+  const double least = unknown_ ? sim::kWeakShare : 0.0;
+  // Where the mean soil breaks a limit, more than half of the drives halt.
+  figures.stop = std::max({drive.shares.stop.share, least, drive.share_of_limits >= 1.0 ? 0.5 : 0.0});
+  figures.embedding = std::max(drive.shares.embedding.share, least);
+  figures.severity = severity(drives_->verdict(drive));
   return figures;
-}
-
-double GroundOnSlopes::over(double distance_m, double of_patch) const {
-  const double patches = std::max(1.0, distance_m / std::max(correlation_length_m(), 1.0));
-  return of_patch >= 1.0 ? 1.0 : -std::expm1(patches * std::log1p(-of_patch));
 }
 
 FiguresBySlope::FiguresBySlope(const GroundOnSlopes& ground, bool with_risk) {
@@ -116,13 +61,14 @@ FiguresBySlope::FiguresBySlope(const GroundOnSlopes& ground, bool with_risk) {
     const double slope = i * kSlopeNode;
     Range& range = nodes_[static_cast<std::size_t>(i)];
     if (slope > std::tan(kMaxMapSlope_rad)) continue;
-    range.greatest = {0.0, 0.0, 0.0};
+    range.greatest = {0.0, 0.0, 0.0, 0.0};
     const int headings = with_risk ? kRiskHeadings : kHeadings;
     for (int k = 0; k < headings; ++k) {
       const double way = 2.0 * std::numbers::pi * k / headings;
       const double uphill = slope * std::cos(way), leftward = slope * std::sin(way);
       const SlopeFigures at =
-          with_risk ? ground.at(uphill, leftward) : SlopeFigures{ground.slip_at(uphill, leftward), 0.0, 0.0};
+          with_risk ? ground.at(uphill, leftward)
+                    : SlopeFigures{ground.slip_at(uphill, leftward), 0.0, 0.0, 0.0};
       const auto widen = [&](double SlopeFigures::*figure) {
         const double value = std::abs(at.*figure);
         range.least.*figure = std::min(range.least.*figure, value);
@@ -131,6 +77,7 @@ FiguresBySlope::FiguresBySlope(const GroundOnSlopes& ground, bool with_risk) {
       widen(&SlopeFigures::slip);
       widen(&SlopeFigures::stop);
       widen(&SlopeFigures::embedding);
+      widen(&SlopeFigures::severity);
     }
   }
 }
@@ -142,7 +89,7 @@ FiguresBySlope::Range FiguresBySlope::at(double slope) const {
   const double t = place - static_cast<double>(i);
   const auto between = [t](const SlopeFigures& a, const SlopeFigures& b) {
     return SlopeFigures{a.slip + t * (b.slip - a.slip), a.stop + t * (b.stop - a.stop),
-                        a.embedding + t * (b.embedding - a.embedding)};
+                        a.embedding + t * (b.embedding - a.embedding), t < 0.5 ? a.severity : b.severity};
   };
   return {between(nodes_[i].least, nodes_[i + 1].least), between(nodes_[i].greatest, nodes_[i + 1].greatest)};
 }
@@ -162,7 +109,7 @@ SlopeFigures FiguresByHeading::at(double uphill, double leftward) const {
   const double row = (uphill + kMaxSlope) / kHeadingNode, column = (leftward + kMaxSlope) / kHeadingNode;
   if (!(row >= 0.0 && column >= 0.0 && row < side_ - 1 && column < side_ - 1)) return {};
   const int i = static_cast<int>(row), j = static_cast<int>(column);
-  SlopeFigures sum{0.0, 0.0, 0.0};
+  SlopeFigures sum{0.0, 0.0, 0.0, 0.0};
   for (const int down : {0, 1}) {
     for (const int right : {0, 1}) {
       const double weight =
@@ -172,6 +119,7 @@ SlopeFigures FiguresByHeading::at(double uphill, double leftward) const {
       sum.slip += weight * node.slip;
       sum.stop += weight * node.stop;
       sum.embedding += weight * node.embedding;
+      if (weight > 0.0) sum.severity = std::max(sum.severity, node.severity);
     }
   }
   return sum;

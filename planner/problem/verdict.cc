@@ -19,6 +19,11 @@ std::string_view verdict_words(std::string_view name) {
   return name == describe(Verdict::kNoGo) ? "NO-GO" : "UNKNOWN";
 }
 
+int severity(Verdict verdict) {
+  if (verdict == Verdict::kNoGo) return 2;
+  return verdict == Verdict::kUnknown ? 1 : 0;
+}
+
 std::string_view describe(Advice::Kind kind) {
   switch (kind) {
     case Advice::Kind::kShorterDrive:

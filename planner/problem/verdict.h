@@ -20,12 +20,16 @@ std::string_view verdict_words(std::string_view name);
 constexpr double kSegment_m = 250.0;
 constexpr double kLongDrive_m = 1000.0;
 
+// 0 of a GO, 1 of UNKNOWN, 2 of a NO-GO: of several verdicts the most severe stands.
+int severity(Verdict verdict);
+
 // What one rule says of a drive. The name is that of a rule of sim::rule_catalogue() for a limit that breaks
 // on the mean soils; "stop", "immobilised" or "embedding" for a probability over the draws; "keep_out",
 // "solver" or "dynamics" for what else forbids a drive or leaves it open.
 struct JudgedRule {
   std::string name;
   Verdict verdict = Verdict::kGo;
+  bool over_draws = false;  // a probability
   // Of the value that is judged, in `unit`, and its interval where it has one.
   double value = 0.0, low = 0.0, high = 0.0;
   double go_below = 0.0, no_go_above = 0.0;  // the bars; of a limit both are the limit

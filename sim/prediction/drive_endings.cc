@@ -7,12 +7,27 @@
 
 namespace slipway::sim {
 
+namespace {
+
+// Of a Poisson count so small the mean of which it is the 90th percentile, by Wilson and Hilferty's cube root.
+double least_mean(double count) {
+  constexpr double kReach80 = 1.2815515655446004;
+  if (count <= 0.0) return 0.0;
+  const double root = 1.0 - 1.0 / (9.0 * count) - kReach80 / (3.0 * std::sqrt(count));
+  return root <= 0.0 ? 0.0 : count * root * root * root;
+}
+
+}  // namespace
+
 DrawnShare share_of_draws(double share, double n) {
   constexpr double z = kReach90;
+  constexpr double kFew = 3.5;
   const double p = std::clamp(share, 0.0, 1.0);
   const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
   const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  double low = std::max(0.0, centre - half);
+  if (p * n < kFew) low = std::min(low, least_mean(p * n) / n);
+  return {p, low, std::min(1.0, centre + half)};
 }
 
 Segments::Segments(const std::vector<PreparedStation>& stations, double segment_m)

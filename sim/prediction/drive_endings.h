@@ -7,7 +7,8 @@
 
 namespace slipway::sim {
 
-// Wilson's interval for a share of n draws, at 90 % [Wilson 1927].
+// Wilson's interval for a share of n draws, at 90 % [Wilson 1927]; of three cases or fewer its lower end is
+// Poisson's, since Wilson's is too high there [Brown, Cai & DasGupta 2001, section 4.1.1].
 DrawnShare share_of_draws(double share, double n);
 
 // The segments of a drive: one, the whole way, where segment_m is 0. The last may be half as long again as

@@ -12,7 +12,6 @@
 #include "api/documents/station_csv.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
-#include "api/report/check_advice.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -65,36 +64,18 @@ TEST(CheckReport, DrawsTheAreasOfTheRequestWithinTheMap) {
   }
 }
 
-JsonValue parsed(const std::string& text) {
-  return json::parse(text).value();
-}
-
-TEST(CheckAdvice, NamesTheStretchTheRuleTheGroundAndTheDrawsThatDecide) {
-  const JsonValue check = parsed(R"({"verdict":"unknown",
-    "request":{"checks":{"slip_check_every_m":20},"bars":{"max_embedding":0.01,"max_expected_stops":0.5}},
-    "outcomes":{"draws":40,"embedding":{"value":0.01,"low":0.005,"high":0.05},
-      "expected_stops":{"value":0.1,"low":0.05,"high":0.2},
-      "rules":[{"rule":"tilt","unit":"deg","limit":20,"value":{"p05":1,"p50":5,"p95":9},"margin":11,"trips":{"value":0}},
-               {"rule":"slip_check","unit":"1","limit":0.4,"value":{"p05":0.1,"p50":0.2,"p95":0.55},"margin":-0.15,"trips":{"value":0.07}}],
-      "grounds":[{"soil":"firm","length_m":30,"expected_stops":0.02,"embedding":0},
-                 {"soil":null,"length_m":12,"expected_stops":0.08,"embedding":0.01}],
-      "stretches":[{"from_m":0,"to_m":10,"expected_stops":0.02,"embedding":0},
-                   {"from_m":10,"to_m":20,"expected_stops":0.08,"embedding":0.01}]}})");
-  const auto advice = check_advice(check);
-  ASSERT_EQ(advice.size(), 5U);
-  EXPECT_EQ(advice[0], "Avoid the way from 10.0 to 20.0 m: 82 % of what goes wrong happens there");
-  EXPECT_NE(advice[1].find("more often than every 20 m"), std::string::npos);
-  EXPECT_NE(advice[2].find("slip_check: with 0.55 for its limit of 0.4"), std::string::npos) << advice[2];
-  EXPECT_NE(advice[3].find("Map the 12 m of ground"), std::string::npos);
-  EXPECT_NE(advice[4].find("more draws of the ground than 40"), std::string::npos);
-}
-
-TEST(CheckAdvice, OfAGoSaysWhatComesNearestToItsLimit) {
-  const JsonValue check = parsed(R"({"verdict":"go","outcomes":{"rules":[
-    {"rule":"tilt","unit":"deg","limit":20,"margin":11},{"rule":"current","unit":"A","limit":10,"margin":2}]}})");
-  EXPECT_EQ(check_advice(check),
-            std::vector<std::string>{
-                "Nearest to its limit is current: 95 % of the draws keep 2 A or more away from 10 A"});
+// A page on a NO-GO or an UNKNOWN commands nothing, and what would change it is the answer's own advice.
+TEST(CheckReport, SaysWhatWouldChangeItAndHeadsNothingAsACommand) {
+  const std::string answer = answered(kPath + std::string(R"(,"limits":{"max_sinkage_m":0.001})"));
+  const auto check = json::parse(answer);
+  ASSERT_EQ(json::text(*check, "verdict"), "no_go");
+  const auto page = check_report(*testing::small_world().catalogue(), answer);
+  ASSERT_TRUE(page);
+  EXPECT_NE(page->find("NO-GO"), std::string::npos);
+  EXPECT_NE(page->find("What would change it"), std::string::npos);
+  EXPECT_NE(page->find("sinkage of a wheel"), std::string::npos);
+  for (const char* const unwanted : {"To be commanded", "margin", "sols expected"})
+    EXPECT_EQ(page->find(unwanted), std::string::npos) << unwanted;
 }
 
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {

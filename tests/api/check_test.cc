@@ -9,7 +9,7 @@
 #include "api/files/drive_outcomes.h"
 #include "api/ground_evidence.h"
 #include "api/json/parse.h"
-#include "planner/judge/drive_decision.h"
+#include "planner/judge/drive_verdict.h"
 #include "small_world.h"
 #include "yard_requests.h"
 
@@ -84,7 +84,7 @@ TEST(Check, AnArcEndsWhereItsRadiusLeads) {
 }
 
 TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
-  const std::string lenient = R"(,"bars":{"max_embedding":1,"max_expected_stops":1000})";
+  const std::string lenient = R"(,"bars":{"max_embedding":1,"max_immobilised":1,"max_stop":1,"no_go_stop":1})";
   const auto with = [&](const std::string& zones) { return kMer.checked(kPath + lenient + zones); };
   const auto free = with("");
   ASSERT_TRUE(free) << free.error().detail;
@@ -128,59 +128,25 @@ TEST(Check, EveryFaultIsNamed) {
   EXPECT_EQ(
       kMer.faults_of(std::string(kPath) + R"(,"checks":{"slip_check_every_m":0},"bars":{"max_embedding":2})"),
       (std::vector<std::string>{"/checks/slip_check_every_m", "/bars/max_embedding"}));
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"bars":{"max_expected_stops":0.5})"),
+            std::vector<std::string>{"/bars/max_expected_stops"});
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"bars":{"max_stop":0.6})"),
+            std::vector<std::string>{"/bars/no_go_stop"});
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"limits":{"max_pitch_deg":70,"max_drive_h":0})"),
+            (std::vector<std::string>{"/limits/max_pitch_deg", "/limits/max_drive_h"}));
   EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"start":{"x_m":1,"y_m":1,"yaw_deg":0})").front(),
             "/path");
 }
 
-sim::DrivePrediction prediction_with(sim::DrawnShare embedding, double stops, double low, double high) {
-  sim::DrivePrediction drive;
-  drive.draws = 272;
-  drive.wheel_names = {"lf"};
-  drive.outcomes.embedding = embedding;
-  drive.outcomes.embedding_on_known = embedding;
-  drive.outcomes.expected_stops = drive.outcomes.expected_stops_on_known = stops;
-  drive.outcomes.expected_stops_low = low;
-  drive.outcomes.expected_stops_high = high;
-  return drive;
-}
-
-planner::Decision decided(const sim::DrivePrediction& drive) {
-  return planner::decide(planner::PlanProblem{}, drive).decision;
-}
-
-TEST(Decision, HasEveryBranch) {
-  const sim::DrawnShare never{0.0, 0.0, 0.0098}, often{0.2, 0.1, 0.3}, rarely{0.01, 0.004, 0.02};
-  EXPECT_EQ(decided(prediction_with(never, 0.1, 0.05, 0.2)), planner::Decision::kGo);
-  EXPECT_EQ(decided(prediction_with(often, 0.1, 0.05, 0.2)), planner::Decision::kNoGo);
-  EXPECT_EQ(decided(prediction_with(never, 2.0, 1.5, 2.5)), planner::Decision::kNoGo);
-  EXPECT_EQ(decided(prediction_with(rarely, 0.1, 0.05, 0.2)), planner::Decision::kUnknown);
-  EXPECT_EQ(decided(prediction_with(never, 0.5, 0.3, 0.7)), planner::Decision::kUnknown);
-  // Without what goes wrong on unmapped ground, both would be under their bars.
-  sim::DrivePrediction unmapped = prediction_with(often, 2.0, 1.5, 2.5);
-  unmapped.outcomes.embedding_on_known = never;
-  unmapped.outcomes.expected_stops_on_known = 0.1;
-  EXPECT_EQ(decided(unmapped), planner::Decision::kUnknown);
-  sim::DrivePrediction no_stance = prediction_with(never, 0.0, 0.0, 0.0);
-  no_stance.immobilised = {3.0, {}, "no stance at 3.0 m: the ground is too uneven for the suspension"};
-  no_stance.without_stance = no_stance.immobilised;
-  EXPECT_EQ(decided(no_stance), planner::Decision::kNoGo);
-  // The mean soils immobilise the rover before it comes to where no soil would help.
-  no_stance.immobilised = {1.0, {}, "no traction at 1.0 m"};
-  no_stance.outcomes.embedding = often;
-  EXPECT_EQ(decided(no_stance), planner::Decision::kNoGo);
-  sim::DrivePrediction scrapes = prediction_with(never, 0.0, 0.0, 0.0);
-  scrapes.outcomes.rules.push_back({.rule = sim::Rule::kClearance, .trips = {1.0, 0.9, 1.0}});
-  EXPECT_EQ(decided(scrapes), planner::Decision::kNoGo);
-}
-
 // Where the drive on the mean soils hangs on c1 and c2, the reasons say so with both pairs.
-TEST(Decision, NamesC1AndC2WhereTheyDecide) {
+TEST(Check, NamesC1AndC2WhereTheyDecide) {
   const auto named = [](const sim::ClosureReach& closures) {
     sim::DrivePrediction drive;
+    drive.draws = 272;
     drive.closures = closures;
-    const auto reasons = planner::decide(planner::PlanProblem{}, drive).reasons;
+    const auto reasons = planner::judge_drive(planner::PlanProblem{}, drive).reasons;
     return std::find_if(reasons.begin(), reasons.end(), [](const std::string& reason) {
-             return reason.starts_with("c1 and c2 of unmapped ground decide") &&
+             return reason.find("(c1 and c2 of unmapped ground)") != std::string::npos &&
                     reason.find("with c1 0.10 and c2 0.20 it keeps all limits (slip 0.12)") !=
                         std::string::npos &&
                     reason.find("with c1 0.70 and c2 0.50 it is immobilised at 41.0 m") != std::string::npos;

@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "api/service.h"
-#include "planner/judge/drive_decision.h"
+#include "planner/judge/drive_verdict.h"
 #include "sim/rover/wheel_failure.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::api {
 namespace {
 
-using planner::Decision;
+using planner::Verdict;
 using sim::FunctionGround;
 
 const Catalogue& shipped() {
@@ -44,18 +44,18 @@ struct Drive {
   double length_m = 12.0;
 
   // Whatever the answer is on the soils as they are, c1 and c2 that are drawn too make no GO of it.
-  Decision decided(const sim::Ground& ground) const {
+  Verdict decided(const sim::Ground& ground) const {
     Drive drawn = *this;
     for (sim::SoilDistribution& known : drawn.beliefs.known) draw_closures(known);
     draw_closures(drawn.beliefs.unknown);
-    const Decision as_shipped = decided_by_soils(ground);
-    if (as_shipped != Decision::kGo) {
-      EXPECT_NE(drawn.decided_by_soils(ground), Decision::kGo) << "with c1 and c2 drawn";
+    const Verdict as_shipped = decided_by_soils(ground);
+    if (as_shipped != Verdict::kGo) {
+      EXPECT_NE(drawn.decided_by_soils(ground), Verdict::kGo) << "with c1 and c2 drawn";
     }
     return as_shipped;
   }
 
-  Decision decided_by_soils(const sim::Ground& ground) const {
+  Verdict decided_by_soils(const sim::Ground& ground) const {
     std::vector<sim::PathStation> path;
     const double travel = start.pose.yaw_rad + (start.backwards ? std::numbers::pi : 0.0);
     for (int k = 0; k * 0.2 <= length_m; ++k) {
@@ -72,7 +72,7 @@ struct Drive {
     const auto drive =
         sim::predict_drive(rover, 3.71, ground, beliefs, path, sim::DriveLimits{}, risk, 0, progress);
     EXPECT_TRUE(drive);
-    return planner::decide(problem, *drive).decision;
+    return planner::judge_drive(problem, *drive).verdict;
   }
 };
 
@@ -82,7 +82,7 @@ FunctionGround slope(double deg) {
 }
 
 TEST(MustNotGo, ButLevelFirmGroundIsAGo) {
-  EXPECT_EQ(Drive().decided(slope(0.0)), Decision::kGo);
+  EXPECT_EQ(Drive().decided(slope(0.0)), Verdict::kGo);
 }
 
 // Ground that no map names, 300 m of it and level, with checks of the slip every 5 m.
@@ -118,7 +118,7 @@ TEST(MustNotGo, TheRippleOfOpportunitysSol2143) {
   const FunctionGround ripple([](double x, double) {
     return std::abs(x) < 2.5 ? 0.25 * (1.0 + std::cos(2.0 * std::numbers::pi * x / 5.0)) : 0.0;
   });
-  EXPECT_NE(drive.decided(ripple), Decision::kGo);
+  EXPECT_NE(drive.decided(ripple), Verdict::kGo);
 }
 
 // As data/campaigns/spirit_dead_wheel.json has it: backwards up a slope of 8 deg, dragging a locked wheel;
@@ -129,7 +129,7 @@ TEST(MustNotGo, SpiritUpASlopeWithADeadWheel) {
   sim::fail_wheels(drive.rover, {{"rf", sim::WheelFailure::kLocked}});
   drive.start.pose.yaw_rad = std::numbers::pi;
   drive.start.backwards = true;
-  EXPECT_NE(drive.decided(slope(8.0)), Decision::kGo);
+  EXPECT_NE(drive.decided(slope(8.0)), Verdict::kGo);
 }
 
 // Troy: a crust that broke under the wheels, over sand on which a rover gets nowhere on the slope beside the
@@ -145,7 +145,7 @@ TEST(MustNotGo, ACrustPatchOverLooseSand) {
   crusted.correlation_length_m = 10.0;
   crusted.drawn_apart = false;
   drive.beliefs.known = {crusted};
-  EXPECT_NE(drive.decided(slope(6.0)), Decision::kGo);
+  EXPECT_NE(drive.decided(slope(6.0)), Verdict::kGo);
 }
 
 }  // namespace

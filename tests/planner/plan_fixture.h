@@ -88,7 +88,8 @@ inline PlanProblem problem_of(std::string_view drawing, double cell_m = 2.0, dou
   problem.limits.max_sinkage_m = 0.2;
   problem.limits.max_current_a = 20.0;
   problem.risk.draws = 4;
-  problem.risk.bars = {.max_embedding = 0.9, .max_expected_stops = 0.9};  // that a clean draw keeps
+  // That a clean draw keeps.
+  problem.risk.bars = {.max_stop = 0.9, .no_go_stop = 0.9, .max_immobilised = 0.9, .max_embedding = 0.9};
   return problem;
 }
 

@@ -188,9 +188,37 @@ TEST(DrivePrediction, EveryBrokenLimitIsNamedWithItsPlace) {
   const auto drive = predict(plane, kLoam, eastward(4.0), {}, tight);
   ASSERT_TRUE(drive);
   ASSERT_EQ(drive->broken_limits.size(), 5u);
-  EXPECT_TRUE(drive->broken_limits[1].starts_with("tilt 16.8 deg at "))  // 16.7 and the lean
-      << drive->broken_limits[1];
+  const std::string tilt = describe(drive->broken_limits[1]);
+  EXPECT_TRUE(tilt.starts_with("tilt 16.8 deg at ")) << tilt;  // 16.7 and the lean
+  EXPECT_TRUE(tilt.ends_with(", limit 10 deg")) << tilt;
   EXPECT_EQ(drive->risk, 1.0);
+}
+
+// A tilt that only 20 cm of the way have: whatever the length of the path, it is found.
+TEST(DrivePrediction, NoPathPassesAPeakByItsSampling) {
+  const FunctionGround ridge([](double x, double) { return 0.12 * std::exp(-std::pow((x - 7.3) / 0.35, 2)); });
+  double least = 1.0, most = 0.0;
+  for (double length = 12.0; length < 12.6; length += 0.07) {
+    const auto drive = predict(ridge, kLoam, eastward(length), {}, {.max_tilt_rad = rad_from_deg(4.5)});
+    ASSERT_TRUE(drive);
+    least = std::min(least, drive->max_tilt_rad.value);
+    most = std::max(most, drive->max_tilt_rad.value);
+  }
+  EXPECT_LT(most - least, rad_from_deg(0.15));
+}
+
+TEST(DrivePrediction, EnergyAndTimeHaveBudgets) {
+  const FunctionGround plane([](double x, double) { return 0.1 * x; });
+  const auto whole = predict(plane, kLoam, eastward(20.0));
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->broken_limits.empty());
+  const auto late = predict(plane, kLoam, eastward(20.0), {}, {.max_drive_s = 0.5 * whole->duration_s});
+  ASSERT_EQ(late->broken_limits.size(), 1u);
+  EXPECT_EQ(late->broken_limits[0].rule, Rule::kDriveTime);
+  EXPECT_NEAR(late->broken_limits[0].value, whole->duration_s, 0.51 * whole->duration_s);
+  const auto empty = predict(plane, kLoam, eastward(20.0), {}, {.max_energy_j = 0.5 * whole->energy_j});
+  ASSERT_EQ(empty->broken_limits.size(), 1u);
+  EXPECT_EQ(empty->broken_limits[0].rule, Rule::kEnergy);
 }
 
 TEST(DrivePrediction, ATurnInPlaceTakesTimeAndNoDistance) {

@@ -137,21 +137,26 @@ TEST(DriveRisk, ADrawnReliefGivesTiltAndClearanceAnInterval) {
     const StationPrediction& sure = as_mapped.stations[k];
     EXPECT_NEAR(sure.tilt_rad_p95, sure.tilt_rad_p05, 1e-6);
     EXPECT_EQ(sure.clearance_m_p05, sure.clearance_m_p95);
+    if (sure.station.distance_m < 3.0 * kRover.circumscribed_m()) continue;  // near where it stands
     EXPECT_GT(drawn.stations[k].tilt_rad_p95 - drawn.stations[k].tilt_rad_p05, rad_from_deg(1.0)) << k;
     EXPECT_GT(drawn.stations[k].clearance_m_p95 - drawn.stations[k].clearance_m_p05, 0.001) << k;
     EXPECT_EQ(drawn.stations[k].state.slip_ratio, sure.state.slip_ratio) << "the mean drive is the map's";
   }
 }
 
-// The linkage can't follow what a map of such error would be: every draw ends there.
-TEST(DriveRisk, ADrawWithoutAStanceIsEmbedded) {
+// The linkage can't follow what a map of such error would be: every draw ends there, as a halt. Where the
+// rover stands it is known to stand.
+TEST(DriveRisk, ADrawWithoutAStanceHaltsBeyondTheStart) {
   const FunctionGround level([](double, double) { return 0.0; });
   RiskOptions risk{.draws = 8};
   risk.relief =
       std::make_shared<const ReliefSpread>(ReliefSpread{.elevation_error_m = 40.0, .error_length_m = 1.0});
-  const DrivePrediction drawn = predict(level, kSure, straight(2.0), risk);
-  EXPECT_EQ(drawn.outcomes.embedding.share, 1.0);
+  const DrivePrediction drawn = predict(level, kSure, straight(6.0), risk);
+  EXPECT_EQ(drawn.outcomes.stop.share, 1.0);
+  EXPECT_EQ(drawn.outcomes.embedding.share, 0.0);
   EXPECT_EQ(drawn.risk, 1.0);
+  EXPECT_EQ(drawn.stations.front().stops, 0.0);
+  EXPECT_EQ(drawn.stations.front().tilt_rad_p95, drawn.stations.front().tilt_rad_p05);
 }
 
 TEST(DriveRisk, ALimitThatTheGroundBreaksIsCertainAtWhateverLength) {
@@ -181,7 +186,7 @@ TEST(DriveRisk, WithoutStanceItIsCertain) {
   const DrivePrediction drive = predict(wall, kSure, straight(8.0), {.draws = 4});
   ASSERT_TRUE(drive.immobilised);
   EXPECT_EQ(drive.risk, 1.0);
-  EXPECT_EQ(drive.outcomes.embedding.share, 1.0);
+  EXPECT_EQ(drive.outcomes.stop.share, 1.0);
   EXPECT_EQ(drive.draws, 4);
 }
 
@@ -229,7 +234,7 @@ TEST(DriveRisk, DrawsUntilTheBarsAreDecidedAndNoFurther) {
   EXPECT_LT(firm.outcomes.embedding.high, 0.01);
   const DrivePrediction hopeless = predict(slope(28.0), kUnsure, straight(5.0), sequential);
   EXPECT_EQ(hopeless.draws, 24);
-  EXPECT_GT(hopeless.outcomes.expected_stops_low, 0.5);
+  EXPECT_GT(hopeless.outcomes.stop.low, 0.5);
 }
 
 ConditionedDraw weighing(double weight) {
@@ -350,8 +355,9 @@ TEST(DrawFigures, AddUpToTheSharesOfTheWholeDrive) {
   EXPECT_GT(drive.outcomes.expected_stops, 0.0);
   EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.stops; }), drive.outcomes.expected_stops,
               1e-12);
-  EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.embedded; }), drive.outcomes.embedding.share,
-              1e-12);
+  // An embedding behind a halt is one of another sol's drive, which a verdict does not judge.
+  EXPECT_GE(mean_of(drive, [](const DrawFigures& d) { return d.embedded; }),
+            drive.outcomes.embedding.share - 1e-12);
   EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.breaks_a_limit; }), drive.risk, 1e-12);
 }
 
@@ -390,12 +396,12 @@ TEST(DriveRisk, TheRulesSayWhereAndByHowMuch) {
   const DrivePrediction drive = predict(ramp, kUnsure, straight(12.0), {.draws = 32}, tight);
   ASSERT_EQ(drive.outcomes.rules.size(), kRules);
   const RuleRisk& tilt = drive.outcomes.rules[static_cast<std::size_t>(Rule::kTilt)];
-  EXPECT_NEAR(tilt.value_p50, std::atan(0.25), 0.01);
+  EXPECT_NEAR(tilt.value.p50, std::atan(0.25), 0.01);
   EXPECT_EQ(tilt.trips.share, 0.0);
   const RuleRisk& current = drive.outcomes.rules[static_cast<std::size_t>(Rule::kCurrent)];
   EXPECT_EQ(current.trips.share, 1.0);
   EXPECT_GE(current.wheel, 0);
-  EXPECT_GT(current.value_p50, 0.2);
+  EXPECT_GT(current.value.p50, 0.2);
   EXPECT_LE(current.from_m, current.to_m);
   EXPECT_LE(current.to_m, 12.0 + 1e-9);
 }
