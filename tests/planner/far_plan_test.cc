@@ -241,14 +241,14 @@ TEST(FarPlan, HasSegmentsWithVerdictsOfTheirOwn) {
   ASSERT_GE(segments.size(), 4U);
   EXPECT_EQ(segments.front().from_m, 0.0);
   EXPECT_NEAR(segments.back().to_m, drive.length_m, 1.0);
-  double stops = 0.0;
+  double most = 0.0;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     if (k > 0) {
       EXPECT_EQ(segments[k].from_m, segments[k - 1].to_m);
     }
-    stops += segments[k].expected_stops * segments[k].reached;
+    most = std::max(most, segments[k].stop.share * segments[k].reached);
   }
-  EXPECT_NEAR(stops, drive.outcomes.expected_stops, 1e-9 + 0.02 * stops);
+  EXPECT_LE(most, drive.outcomes.stop.share + 1e-9) << "a halt on a segment is one on the way";
 }
 
 class Listens final : public Progress {
