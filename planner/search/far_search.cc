@@ -95,6 +95,11 @@ class FarProposer {
     const MotionCost asked(problem_, nowhere_, tables_, problem_.weights, problem_.ranking.ranked_tail());
     work_ = static_cast<int>(guides.size()) + kMaxRounds;
     search(guides, true);
+    if (problem_.planners.empty() && !found_.empty()) {
+      std::vector<Motion> line = straight_way(problem_);
+      set_down_as_it_leaves(problem_.start, line);
+      found_.push_back({std::move(line), std::string(kStraightPlanner), std::string(kStraightPlanner)});
+    }
     judge(asked);
     for (int round = 1; round <= kMaxRounds && !found_.empty() && !enough() && !progress_.cancelled();
          ++round) {
@@ -319,6 +324,8 @@ class FarProposer {
         tell_found(progress_, found.motions, cost);
       p.differences.add(centreline(found.motions, kLineSpacing_m));
       p.candidates.push_back({found.motions, found.planner, found.profile, cost});
+    } else if (found.planner == kStraightPlanner) {
+      return;  // nobody found it: it is there whatever lies on it
     } else if (const auto pose = first_hit(keep_out_, found.motions)) {
       p.in_keep_out.push_back(*pose);
     } else if (const auto closed = first_closed(problem_, asked, found.motions)) {

@@ -46,8 +46,8 @@ bool Differences::differ(std::size_t a, std::size_t b) const {
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
                                        std::size_t wanted) {
   for (std::size_t size = std::min(wanted, order.size()); size > 0; --size) {
-    std::vector<std::size_t> chosen;
-    if (extend(differences, order, 0, size, chosen)) return chosen;
+    std::vector<std::size_t> chosen{order.front()};
+    if (extend(differences, order, 1, size, chosen)) return chosen;
   }
   return {};
 }

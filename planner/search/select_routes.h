@@ -28,9 +28,9 @@ class Differences {
   std::vector<std::vector<double>> shared_;
 };
 
-// Of candidates in `order` (best first) a set that differs in pairs: as many as can be had up to `wanted`,
-// and among the sets of that size the one whose best is best, then whose second is best, and so on. Best
-// first.
+// Of candidates in `order` (best first) a set that differs in pairs and has the best of all in it: as many as
+// can be had up to `wanted`, and among the sets of that size the one whose second is best, then whose third is
+// best, and so on. Best first.
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
                                        std::size_t wanted);
 
