@@ -111,6 +111,7 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
                    check.place(request.goal, "/goal");
                    for (std::size_t i = 0; i < request.waypoints.size(); ++i)
                      check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
+                   check.legs(request);
                    check.planners(request.planners, options_.planners);
                  });
 }

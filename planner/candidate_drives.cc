@@ -30,7 +30,7 @@ std::optional<std::size_t> cheapest_of(const Proposal& proposal, const std::vect
 
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare) {
   const std::vector<std::size_t> order = proposal.by_cost();
-  std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
+  std::vector<std::size_t> list = proposal.different(wanted);
   const bool enough = list.size() == wanted;
   const std::size_t most = std::max(kMaxSimulated, wanted);
   const std::size_t spare = enough ? std::min(most, list.size() + 1) : most;
@@ -83,8 +83,9 @@ Result<void> CandidateDrives::drive(const Candidate& candidate, Progress& progre
 Result<std::vector<Route>> CandidateDrives::choose(Progress& progress) {
   const std::vector<std::size_t> may_go = those_that_may_go();
   if (auto decided = decide_first(may_go, progress); !decided) return fail(decided.error());
+  const std::vector<std::size_t> order = ranked(may_go);
   const std::vector<std::size_t> chosen =
-      select_routes(differences_, ranked(may_go), static_cast<std::size_t>(problem_.routes));
+      select_routes(differences_, order, leaders(order), static_cast<std::size_t>(problem_.routes));
   for (const std::size_t i : chosen) {
     Driven& drive = driven_[i];
     auto final = predict(drive, risk_of(drive), progress);
@@ -167,6 +168,17 @@ std::vector<std::size_t> CandidateDrives::ranked(const std::vector<std::size_t>&
   return order;
 }
 
+// How many of an order may stand first.
+std::size_t CandidateDrives::leaders(const std::vector<std::size_t>& order) const {
+  std::vector<double> costs;
+  for (const std::size_t i : order) {
+    const Route& route = driven_[i].route;
+    if (is_no_go(route) != is_no_go(driven_[order.front()].route) || route.prediction.immobilised) break;
+    costs.push_back(route.cost);
+  }
+  return std::max<std::size_t>(1, as_good_as_best(costs));
+}
+
 // Twice as many draws for the first two until these tell which is first; who is first and who is second may
 // change by it.
 Result<void> CandidateDrives::decide_first(const std::vector<std::size_t>& of, Progress& progress) {
@@ -175,7 +187,7 @@ Result<void> CandidateDrives::decide_first(const std::vector<std::size_t>& of, P
     if (order.size() < 2) return {};
     const std::size_t first = order[0], second = order[1];
     const Route &a = driven_[first].route, &b = driven_[second].route;
-    if (order_of(a, b, problem_.ranking) != RankOrder::kOpen) return {};
+    if (order_of(a, b, problem_.ranking) != RankOrder::kUndecided) return {};
     const int most = std::min(most_draws(driven_[first]), most_draws(driven_[second]));
     const int least = std::min(a.prediction.draws, b.prediction.draws);
     if (least >= most) return {};

@@ -60,6 +60,7 @@ class CandidateDrives {
   Result<sim::DrivePrediction> predict(Driven& drive, const sim::RiskOptions& risk, Progress& progress);
   Result<void> draw(std::size_t i, int draws, Progress& progress);
   std::vector<std::size_t> ranked(const std::vector<std::size_t>& of) const;
+  std::size_t leaders(const std::vector<std::size_t>& order) const;
   Result<void> decide_first(const std::vector<std::size_t>& of, Progress& progress);
   std::vector<std::size_t> those_that_may_go() const;
 

@@ -117,15 +117,7 @@ class Planning {
 
   void say_why_none(const Proposal& proposal, const GroundTables& tables, Plan& plan) const {
     if (std::isfinite(proposal.grid_optimum)) {
-      plan.fewer_because.emplace_back(
-          "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
-      if (!proposal.in_keep_out.empty())
-        plan.fewer_because.push_back(dropped_for_keep_outs(problem_, proposal.in_keep_out));
-      if (!proposal.closed.empty())
-        plan.fewer_because.push_back(fmt::format("of {} such routes the first, which {}",
-                                                 proposal.closed.size(), proposal.closed.front()));
-      for (const std::vector<std::size_t>& way : proposal.grid_ways)
-        plan.fewer_because.push_back(hardest_place(*map_, way));
+      say_what_planners_met(proposal, plan);
       return;
     }
     if (is_far_) {
@@ -143,6 +135,23 @@ class Planning {
         plan.fewer_because.push_back(std::move(why));
       }
     }
+  }
+
+  // There is a way on the grid: a zone is on it, or it is too narrow for motions.
+  void say_what_planners_met(const Proposal& proposal, Plan& plan) const {
+    std::vector<std::string>& words = plan.fewer_because;
+    for (const std::vector<std::size_t>& way : proposal.grid_ways)
+      if (auto zone = zone_on_way(problem_, *map_, way)) words.push_back(*std::move(zone));
+    if (words.empty())
+      words.emplace_back(
+          "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
+    if (!proposal.in_keep_out.empty())
+      words.push_back(dropped_for_keep_outs(problem_, proposal.in_keep_out));
+    if (!proposal.closed.empty())
+      words.push_back(fmt::format("of {} such routes the first, which {}", proposal.closed.size(),
+                                  proposal.closed.front()));
+    for (const std::vector<std::size_t>& way : proposal.grid_ways)
+      words.push_back(hardest_place(*map_, way));
   }
 
   Result<void> simulate(const Proposal& proposal, Plan& plan) {

@@ -24,9 +24,9 @@ namespace slipway::api {
 //   arc,3.14,-6.05
 //   turn,30,
 struct CommandsTable {
-  std::string terrain, rover;  // empty: the file does not say it
-  planner::Waypoint start;     // with a heading
-  std::vector<planner::DriveStep> commands;
+  std::string terrain = {}, rover = {};  // empty: the file does not say it
+  planner::Waypoint start = {};  // with a heading
+  std::vector<planner::DriveStep> commands = {};
   std::vector<std::size_t> lines = {};  // of the commands in the file, where it was read from one
 };
 

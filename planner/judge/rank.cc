@@ -179,7 +179,7 @@ std::string against_the_second(const Route& route, const Route& next, const Rank
       return (dearer ? "first: " : "best: ") + figures;
     case RankOrder::kTied:
       return "tied with route 2: " + figures;
-    case RankOrder::kOpen:
+    case RankOrder::kUndecided:
       break;
   }
   return "first, which the draws do not decide: " + figures;
@@ -284,7 +284,7 @@ RankOrder order_of(const Route& a, const Route& b, const Ranking& ranking) {
   const CostDifference difference = ranked_difference(a, b, ranking);
   if (difference.draws == 0 || difference.decided()) return RankOrder::kTold;
   const bool close = std::abs(a.cost - b.cost) <= kTiedShare * std::min(a.cost, b.cost);
-  return close ? RankOrder::kTied : RankOrder::kOpen;
+  return close ? RankOrder::kTied : RankOrder::kUndecided;
 }
 
 void explain(std::vector<Route>& routes, const Ranking& ranking) {

@@ -41,7 +41,7 @@ CostDifference ranked_difference(const Route& a, const Route& b, const Ranking& 
 enum class RankOrder {
   kTold,  // nought lies outside the 90 % interval of the difference of their costs, or no draws are needed
   kTied,  // nought lies in it, and the costs are within 3 % of each other
-  kOpen,  // nought lies in it, and the costs are further apart: more draws may tell
+  kUndecided,  // nought lies in it, and the costs are further apart: more draws may tell
 };
 RankOrder order_of(const Route& a, const Route& b, const Ranking& ranking);
 

@@ -115,8 +115,7 @@ class FarProposer {
  private:
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
   bool enough() const {
-    const Proposal& p = out_.proposal;
-    return select_routes(p.differences, p.by_cost(), wanted()).size() >= wanted();
+    return out_.proposal.different(wanted()).size() >= wanted();
   }
 
   // The nodes of the places; false where no way joins two of them.
@@ -276,7 +275,7 @@ class FarProposer {
     const double block = kBlockCells * std::max(g.cell_x_m, g.cell_y_m);
     const double reach = std::max(kMinBand_blocks * block, kBandOfLeg * longest);
     const Proposal& p = out_.proposal;
-    for (const std::size_t chosen : select_routes(p.differences, p.by_cost(), wanted())) {
+    for (const std::size_t chosen : p.different(wanted())) {
       std::vector<Eigen::Vector2d> line = centreline(p.candidates[chosen].motions, 0.5 * block);
       line.erase(std::remove_if(line.begin(), line.end(),
                                 [&](const Eigen::Vector2d& at) { return is_near_place(places_, at, reach); }),

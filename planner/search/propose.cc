@@ -110,7 +110,7 @@ class Proposer {
   void add_planner(const PlannerRow& row) { planners_.push_back({std::string(row.name), row.make()}); }
 
   bool enough() const {
-    return select_routes(proposal_.differences, proposal_.by_cost(), wanted()).size() >= wanted();
+    return proposal_.different(wanted()).size() >= wanted();
   }
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
 
@@ -207,7 +207,7 @@ class Proposer {
     const dem::GridGeometry& g = map_.geometry();
     const int columns = static_cast<int>(std::ceil(reach / g.cell_x_m));
     const int rows = static_cast<int>(std::ceil(reach / g.cell_y_m));
-    for (const std::size_t chosen : select_routes(proposal_.differences, proposal_.by_cost(), wanted())) {
+    for (const std::size_t chosen : proposal_.different(wanted())) {
       for (const Eigen::Vector2d& place : centreline(proposal_.candidates[chosen].motions, map_.cell_m())) {
         for (int dr = -rows; dr <= rows; ++dr) {
           for (int dc = -columns; dc <= columns; ++dc) {
@@ -242,6 +242,13 @@ std::vector<std::size_t> Proposal::by_cost() const {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return candidates[a].cost < candidates[b].cost; });
   return order;
+}
+
+std::vector<std::size_t> Proposal::different(std::size_t wanted) const {
+  const std::vector<std::size_t> order = by_cost();
+  std::vector<double> costs;
+  for (const std::size_t i : order) costs.push_back(candidates[i].cost);
+  return select_routes(differences, order, as_good_as_best(costs), wanted);
 }
 
 Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,

@@ -37,8 +37,10 @@ struct Proposal {
   std::vector<std::string> closed = {};
   // The cells of the grid's cheapest way of each leg, under the request's weights.
   std::vector<std::vector<std::size_t>> grid_ways = {};
-  // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
+  // The cheapest first.
   std::vector<std::size_t> by_cost() const;
+  // Of these the ones that differ, see select_routes().
+  std::vector<std::size_t> different(std::size_t wanted) const;
 };
 
 // Searches each profile with each planner that the problem names (none: the default set of `planners`, the grid

@@ -93,7 +93,8 @@ void write_place(Writer& w, const PlaceOption& place) {
 }
 
 Result<void> write_drive(Writer& w, const DriveOptions& drive) {
-  w.text("terrain", drive.terrain).text("rover", drive.rover);
+  if (!drive.terrain.empty()) w.text("terrain", drive.terrain);
+  if (!drive.rover.empty()) w.text("rover", drive.rover);
   write_given(w, "limits",
               {{"max_slip", drive.max_slip},
                {"max_tilt_deg", drive.max_tilt_deg},

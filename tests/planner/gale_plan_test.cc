@@ -22,7 +22,7 @@ TEST(GalePlan, ClimbsTheScarpBetweenTwoOfCuriositysStopsWithinTheLimits) {
   NoProgress progress;
   const Result<Plan> plan = make_plan(problem, progress);
   ASSERT_TRUE(plan.has_value());
-  ASSERT_EQ(plan->routes.size(), 3U);
+  ASSERT_EQ(plan->routes.size(), 3U) << ::testing::PrintToString(plan->fewer_because);
   // The straight line of 64 m crosses slopes of over 25 deg.
   const Route& best = plan->routes.front();
   EXPECT_NE(best.verdict, Verdict::kNoGo);

@@ -218,7 +218,7 @@ TEST(RankedOrder, IsTiedOnlyWithin3PercentAndOpenWhereFewDrawsDoNotTell) {
   const double share = std::abs(far[0].cost - far[1].cost) / std::min(far[0].cost, far[1].cost);
   ASSERT_GT(share, 0.03);
   ASSERT_FALSE(ranked_difference(far[0], far[1], {}).decided());
-  EXPECT_EQ(order_of(far[0], far[1], {}), RankOrder::kOpen);
+  EXPECT_EQ(order_of(far[0], far[1], {}), RankOrder::kUndecided);
   EXPECT_EQ(order_of(close[0], close[1], {}), RankOrder::kTied);
 }
 
