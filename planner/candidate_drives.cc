@@ -14,6 +14,7 @@ namespace slipway::planner {
 namespace {
 
 constexpr std::size_t kMaxSimulated = 6;  // unless more routes are asked for
+constexpr std::size_t kMaxMore = 6;       // where these are not enough
 constexpr double kLineSpacing_m = 0.25;
 // A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
@@ -26,6 +27,12 @@ std::optional<std::size_t> cheapest_of(const Proposal& proposal, const std::vect
   return std::nullopt;
 }
 
+bool is_copy(const Proposal& proposal, std::size_t i, const std::vector<std::size_t>& list) {
+  return std::any_of(list.begin(), list.end(), [&](std::size_t other) {
+    return other == i || proposal.differences.shared(i, other) > kSameRoute;
+  });
+}
+
 }  // namespace
 
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare) {
@@ -36,16 +43,24 @@ std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted,
   const std::size_t spare = enough ? std::min(most, list.size() + 1) : most;
   for (const std::size_t i : order) {
     if ((enough && !with_spare) || list.size() >= spare) break;
-    const bool copy = std::any_of(list.begin(), list.end(), [&](std::size_t other) {
-      return other == i || proposal.differences.shared(i, other) > kSameRoute;
-    });
-    if (!copy) list.push_back(i);
+    if (!is_copy(proposal, i, list)) list.push_back(i);
   }
   for (const std::string_view planner : {kStraightPlanner, kGridPlanner}) {
     const auto i = cheapest_of(proposal, order, planner);
     if (i && std::find(list.begin(), list.end(), *i) == list.end()) list.push_back(*i);
   }
   return list;
+}
+
+std::optional<std::size_t> next_candidate(const Proposal& proposal, const std::vector<std::size_t>& list) {
+  if (list.size() >= kMaxSimulated + kMaxMore) return std::nullopt;
+  for (const std::size_t i : proposal.by_cost())
+    if (!is_copy(proposal, i, list)) return i;
+  return std::nullopt;
+}
+
+bool CandidateDrives::enough() const {
+  return differing(ranked(those_that_may_go())).size() >= static_cast<std::size_t>(problem_.routes);
 }
 
 Result<void> CandidateDrives::drive(const Candidate& candidate, Progress& progress) {
@@ -83,9 +98,7 @@ Result<void> CandidateDrives::drive(const Candidate& candidate, Progress& progre
 Result<std::vector<Route>> CandidateDrives::choose(Progress& progress) {
   const std::vector<std::size_t> may_go = those_that_may_go();
   if (auto decided = decide_first(may_go, progress); !decided) return fail(decided.error());
-  const std::vector<std::size_t> order = ranked(may_go);
-  const std::vector<std::size_t> chosen =
-      select_routes(differences_, order, leaders(order), static_cast<std::size_t>(problem_.routes));
+  const std::vector<std::size_t> chosen = differing(ranked(may_go));
   for (const std::size_t i : chosen) {
     Driven& drive = driven_[i];
     auto final = predict(drive, risk_of(drive), progress);
@@ -168,15 +181,16 @@ std::vector<std::size_t> CandidateDrives::ranked(const std::vector<std::size_t>&
   return order;
 }
 
-// How many of an order may stand first.
-std::size_t CandidateDrives::leaders(const std::vector<std::size_t>& order) const {
+// The routes that are given out of an order.
+std::vector<std::size_t> CandidateDrives::differing(const std::vector<std::size_t>& order) const {
   std::vector<double> costs;
   for (const std::size_t i : order) {
     const Route& route = driven_[i].route;
-    if (is_no_go(route) != is_no_go(driven_[order.front()].route) || route.prediction.immobilised) break;
+    if (route.verdict == Verdict::kNoGo) break;
     costs.push_back(route.cost);
   }
-  return std::max<std::size_t>(1, as_good_as_best(costs));
+  const std::size_t leaders = std::max<std::size_t>(1, as_good_as_best(costs));
+  return select_routes(differences_, order, leaders, static_cast<std::size_t>(problem_.routes));
 }
 
 // Twice as many draws for the first two until these tell which is first; who is first and who is second may

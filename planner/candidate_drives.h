@@ -19,6 +19,10 @@ namespace slipway::planner {
 // those that differ, and where `with_spare` the cheapest others that are no copies of these.
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare);
 
+// The cheapest candidate that is not in the list and no copy of one there: what to simulate where those in the
+// list are not enough. Nothing where there is none, or the list is long.
+std::optional<std::size_t> next_candidate(const Proposal& proposal, const std::vector<std::size_t>& list);
+
 // Simulates candidates as the commands that a rover takes, ranks them by what they cost on draws of the ground
 // and chooses those that are given out. Keeps references to what it is made of.
 class CandidateDrives {
@@ -35,8 +39,9 @@ class CandidateDrives {
   // those of sim::predict_drive().
   Result<std::vector<Route>> choose(Progress& progress);
 
-  // How many candidates are driven, and why others are not.
-  std::size_t driven() const { return driven_.size(); }
+  // Whether as many routes as the problem asks for could be given out so far.
+  bool enough() const;
+  // Why candidates are not driven.
   const std::vector<Error>& unpredicted() const { return unpredicted_; }
   const std::vector<Pose2>& in_keep_out() const { return in_keep_out_; }
   // The best of those that are NO-GO; nothing where none is.
@@ -59,6 +64,7 @@ class CandidateDrives {
   int most_draws(const Driven& drive) const;
   Result<sim::DrivePrediction> predict(Driven& drive, const sim::RiskOptions& risk, Progress& progress);
   Result<void> draw(std::size_t i, int draws, Progress& progress);
+  std::vector<std::size_t> differing(const std::vector<std::size_t>& order) const;
   std::vector<std::size_t> ranked(const std::vector<std::size_t>& of) const;
   std::size_t leaders(const std::vector<std::size_t>& order) const;
   Result<void> decide_first(const std::vector<std::size_t>& of, Progress& progress);

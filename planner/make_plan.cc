@@ -156,7 +156,7 @@ class Planning {
 
   Result<void> simulate(const Proposal& proposal, Plan& plan) {
     const auto wanted = static_cast<std::size_t>(problem_.routes);
-    const std::vector<std::size_t> list = shortlist(proposal, wanted, !is_long());
+    std::vector<std::size_t> list = shortlist(proposal, wanted, !is_long());
     const double end = problem_.verify > 0 ? kSimulatedUnverified : kSimulated;
     const double share = (end - kSimulating) / static_cast<double>(list.size());
     for (std::size_t k = 0; k < list.size(); ++k) {
@@ -166,6 +166,12 @@ class Planning {
       if (auto driven = drives_.drive(proposal.candidates[list[k]], stage); !driven) return driven;
     }
     StageProgress stage(progress_, "comparing routes", end, end);
+    while (!is_long() && !drives_.enough()) {
+      const auto next = next_candidate(proposal, list);
+      if (!next) break;
+      list.push_back(*next);
+      if (auto driven = drives_.drive(proposal.candidates[*next], stage); !driven) return driven;
+    }
     auto routes = drives_.choose(stage);
     if (!routes) return fail(routes.error());
     plan.routes = std::move(*routes);

@@ -35,6 +35,10 @@ TEST(SelectRoutes, PrefersMoreRoutesToABetterOneAndThenTheBest) {
   EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 4, 3), (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 4, 2), (std::vector<std::size_t>{0, 3}));
   EXPECT_EQ(select_routes(differences, {3, 0, 1, 2}, 4, 1), (std::vector<std::size_t>{3}));
+  // One of the leaders is in the set, whatever that costs in number.
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 1, 3), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 2, 3), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(as_good_as_best({2.0, 2.01, 2.02, 2.03}), 3U);
 }
 
 }  // namespace
