@@ -39,7 +39,8 @@ Result<std::string> answer_of(const std::string& id, JobStore& jobs) {
 
 // The members but those that name the route.
 json::JsonValue others_of(const json::JsonValue& document) {
-  json::JsonValue rest{.kind = json::JsonValue::Kind::kObject};
+  json::JsonValue rest;
+  rest.kind = json::JsonValue::Kind::kObject;
   for (std::size_t i = 0; i < document.keys.size(); ++i) {
     if (document.keys[i] == "plan" || document.keys[i] == "route") continue;
     rest.keys.push_back(document.keys[i]);

@@ -1,6 +1,7 @@
-// How good the first route of a plan is: on random pairs of places of the shipped terrain, how often it is dearer
-// by over 3 % than (a) another route of its own plan, (b) the straight line, (c) the grid's cheapest way, each
-// driven as its commands on the same draws; and how many routes a plan has and how often it turns in place.
+// How good the first route of a plan is: on random pairs of places of the shipped terrain, how often it is
+// dearer by over 3 % than (a) another route of its own plan, (b) the straight line, (c) the grid's cheapest
+// way, each driven as its commands on the same draws; and how many routes a plan has and how often it turns
+// in place.
 //
 //   first_route [pairs [seed]]        45 pairs where nothing is given
 
@@ -71,8 +72,9 @@ void count(const PlanProblem& problem, Tally& tally, std::string& line) {
   const Route& first = plan->routes.front();
   tally.routes += static_cast<int>(plan->routes.size());
   for (const DriveStep& step : first.commands.steps) tally.turns += step.turn_rad != 0.0 ? 1 : 0;
-  line += fmt::format(" {} {} {:.1f} m cost {:.3f}, {} routes", first.planner, describe(first.decision.decision),
-                      first.prediction.length_m, first.cost, plan->routes.size());
+  line +=
+      fmt::format(" {} {} {:.1f} m cost {:.3f}, {} routes", first.planner, describe(first.decision.decision),
+                  first.prediction.length_m, first.cost, plan->routes.size());
   const bool own = std::any_of(plan->routes.begin(), plan->routes.end(),
                                [&](const Route& other) { return first.cost > kDearer * other.cost; });
   tally.own += own ? 1 : 0;
@@ -98,7 +100,8 @@ int main(int argc, char** argv) {
   site.problem.risk.draws = kFirstDraws;
   site.problem.risk.max_draws = kMostDraws;
   const auto place = [&](std::uint64_t key) {
-    const auto stop = static_cast<std::size_t>(random_uniform(key, 0) * static_cast<double>(site.stops.size()));
+    const auto stop =
+        static_cast<std::size_t>(random_uniform(key, 0) * static_cast<double>(site.stops.size()));
     const api::Stop& at = site.stops[std::min(stop, site.stops.size() - 1)];
     return Waypoint{at.x_m + 40.0 * (random_uniform(key, 1) - 0.5),
                     at.y_m + 40.0 * (random_uniform(key, 2) - 0.5), std::nullopt};
@@ -116,7 +119,8 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   fmt::print(
-      "of {} first routes dearer by over 3 % than another of the plan {}, than the straight line {}, than the "
+      "of {} first routes dearer by over 3 % than another of the plan {}, than the straight line {}, than "
+      "the "
       "grid's way {}; {:.1f} routes a plan, {:.1f} turns in place in the first; {} pairs without a plan\n",
       tally.pairs, tally.own, tally.line, tally.grid, static_cast<double>(tally.routes) / tally.pairs,
       static_cast<double>(tally.turns) / tally.pairs, tally.no_plan);

@@ -76,8 +76,8 @@ CostDifference difference(const Route& a, const Route& b, int draws, const Ranki
   return difference_of(first, b.drawn_costs, ranking.ranked_tail());
 }
 
-// As a plan of the service does it: the first two get more draws until these tell which is first, or call them
-// tied.
+// As a plan of the service does it: the first two get more draws until these tell which is first, or call
+// them tied.
 std::size_t raced(const std::vector<Route>& routes, int most, const Ranking& ranking) {
   std::vector<int> draws(routes.size(), kFirst);
   for (;;) {

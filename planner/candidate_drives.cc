@@ -128,8 +128,8 @@ const Route* CandidateDrives::best_no_go() const {
 }
 
 std::size_t CandidateDrives::no_go() const {
-  return static_cast<std::size_t>(std::count_if(
-      driven_.begin(), driven_.end(), [](const Driven& drive) { return is_no_go(drive.route); }));
+  return static_cast<std::size_t>(std::count_if(driven_.begin(), driven_.end(),
+                                                [](const Driven& drive) { return is_no_go(drive.route); }));
 }
 
 // What is given out is tested itself, whatever the search has tested: every station, and all that the body

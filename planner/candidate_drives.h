@@ -15,16 +15,16 @@
 
 namespace slipway::planner {
 
-// Which candidates of a proposal are simulated: the straight line and the cheapest way of the grid in any case,
-// those that differ, and where `with_spare` the cheapest others that are no copies of these.
+// Which candidates of a proposal are simulated: the straight line and the cheapest way of the grid in any
+// case, those that differ, and where `with_spare` the cheapest others that are no copies of these.
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare);
 
-// The cheapest candidate that is not in the list and no copy of one there: what to simulate where those in the
-// list are not enough. Nothing where there is none, or the list is long.
+// The cheapest candidate that is not in the list and no copy of one there: what to simulate where those in
+// the list are not enough. Nothing where there is none, or the list is long.
 std::optional<std::size_t> next_candidate(const Proposal& proposal, const std::vector<std::size_t>& list);
 
-// Simulates candidates as the commands that a rover takes, ranks them by what they cost on draws of the ground
-// and chooses those that are given out. Keeps references to what it is made of.
+// Simulates candidates as the commands that a rover takes, ranks them by what they cost on draws of the
+// ground and chooses those that are given out. Keeps references to what it is made of.
 class CandidateDrives {
  public:
   CandidateDrives(const PlanProblem& problem, const TerrainGround& ground, const KeepOut& keep_out)
@@ -35,8 +35,8 @@ class CandidateDrives {
 
   // Draws on until the first place is decided or tied, or the most draws are reached; chooses routes that
   // differ, as many as the problem asks for, and none that is a NO-GO beside one that is not; gives each the
-  // draws that a check of its commands takes; and ranks them by all the draws there are. Errors: cancelled, and
-  // those of sim::predict_drive().
+  // draws that a check of its commands takes; and ranks them by all the draws there are. Errors: cancelled,
+  // and those of sim::predict_drive().
   Result<std::vector<Route>> choose(Progress& progress);
 
   // Whether as many routes as the problem asks for could be given out so far.

@@ -145,13 +145,11 @@ class Planning {
     if (words.empty())
       words.emplace_back(
           "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
-    if (!proposal.in_keep_out.empty())
-      words.push_back(dropped_for_keep_outs(problem_, proposal.in_keep_out));
+    if (!proposal.in_keep_out.empty()) words.push_back(dropped_for_keep_outs(problem_, proposal.in_keep_out));
     if (!proposal.closed.empty())
       words.push_back(fmt::format("of {} such routes the first, which {}", proposal.closed.size(),
                                   proposal.closed.front()));
-    for (const std::vector<std::size_t>& way : proposal.grid_ways)
-      words.push_back(hardest_place(*map_, way));
+    for (const std::vector<std::size_t>& way : proposal.grid_ways) words.push_back(hardest_place(*map_, way));
   }
 
   Result<void> simulate(const Proposal& proposal, Plan& plan) {

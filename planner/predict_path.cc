@@ -63,11 +63,10 @@ std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const std:
 Result<sim::DrivePrediction> predict_stations(const PlanProblem& problem,
                                               const std::vector<sim::PathStation>& stations,
                                               Progress& progress) {
-  return sim::predict_drive(*problem.rover, problem.gravity_m_s2,
-                            TerrainGround(problem.terrain, problem.soil_map), problem.beliefs, stations,
-                            problem.limits,
-                            risk_of_drive(problem.risk, stations.back().distance_m, stations.size()),
-                            problem.threads, progress, problem.conditions);
+  return sim::predict_drive(
+      *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map), problem.beliefs,
+      stations, problem.limits, risk_of_drive(problem.risk, stations.back().distance_m, stations.size()),
+      problem.threads, progress, problem.conditions);
 }
 
 // "/stations/12" to the corner on the way to which it lies.

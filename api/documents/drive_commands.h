@@ -22,9 +22,9 @@ void write_commands(Writer& w, const std::vector<planner::DriveStep>& commands);
 // "start" and "commands" of a route.
 void write_drive_steps(Writer& w, const planner::DriveSteps& steps);
 
-// The request of a check of a plan's route: terrain, rover, start and commands, and all that the plan's request
-// assumes of a drive. `plan`: the plan's answer. Errors: invalid_request at /route where it has none of this
-// rank.
+// The request of a check of a plan's route: terrain, rover, start and commands, and all that the plan's
+// request assumes of a drive. `plan`: the plan's answer. Errors: invalid_request at /route where it has none
+// of this rank.
 Result<std::string> check_of_route(const JsonValue& plan, int route);
 
 // A route's commands as a table, see commands_csv.h. Errors as above.

@@ -127,9 +127,10 @@ class Reader {
 }  // namespace
 
 std::string write_commands_csv(const CommandsTable& table) {
-  std::string csv = fmt::format(
-      "# terrain: {}\n# rover: {}\n# start_x_m: {}\n# start_y_m: {}\n# start_yaw_deg: {:.12g}\n", table.terrain,
-      table.rover, table.start.x_m, table.start.y_m, deg_from_rad(table.start.yaw_rad.value_or(0.0)));
+  std::string csv =
+      fmt::format("# terrain: {}\n# rover: {}\n# start_x_m: {}\n# start_y_m: {}\n# start_yaw_deg: {:.12g}\n",
+                  table.terrain, table.rover, table.start.x_m, table.start.y_m,
+                  deg_from_rad(table.start.yaw_rad.value_or(0.0)));
   csv += "command,value,radius_m\n";
   for (const planner::DriveStep& step : table.commands) {
     if (step.drive_m <= 0.0)

@@ -25,7 +25,7 @@ namespace slipway::api {
 //   turn,30,
 struct CommandsTable {
   std::string terrain = {}, rover = {};  // empty: the file does not say it
-  planner::Waypoint start = {};  // with a heading
+  planner::Waypoint start = {};          // with a heading
   std::vector<planner::DriveStep> commands = {};
   std::vector<std::size_t> lines = {};  // of the commands in the file, where it was read from one
 };

@@ -155,12 +155,11 @@ std::string against_the_one_before(const Route& route, const Route& before, cons
       terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
   const bool tied = order_of(before, route, ranking) == RankOrder::kTied;
-  return fmt::format("{} route {}: cost {:.2f} against {:.2f}{}{}", tied ? "tied with" : "behind",
-                     before.rank, route.cost, before.cost,
-                     route.drawn_costs.empty()
-                         ? ""
-                         : " " + ranking.in_words(static_cast<int>(route.drawn_costs.size())),
-                     terms.empty() ? std::string() : " (" + terms + ")");
+  return fmt::format(
+      "{} route {}: cost {:.2f} against {:.2f}{}{}", tied ? "tied with" : "behind", before.rank, route.cost,
+      before.cost,
+      route.drawn_costs.empty() ? "" : " " + ranking.in_words(static_cast<int>(route.drawn_costs.size())),
+      terms.empty() ? std::string() : " (" + terms + ")");
 }
 
 // Why the first route leads.

@@ -188,8 +188,8 @@ class Commander {
     constexpr double kOwnEnd = 0.01;  // of the weight of the next one's
     if (i + 1 < legs_.size() && !legs_[i + 1].turns && !leg.stop_yaw) {
       const Leg& next = legs_[i + 1];
-      Motion on{.from = reached, .to = reached, .length_m = next.length_m,
-                .curvature_1_m = next.curvature_1_m};
+      Motion on{
+          .from = reached, .to = reached, .length_m = next.length_m, .curvature_1_m = next.curvature_1_m};
       const Pose2 then = next.is_straight() ? reached : on.at(on.length_m);
       const double aside = (next.end.y_m - then.y_m) * std::cos(then.yaw_rad) -
                            (next.end.x_m - then.x_m) * std::sin(then.yaw_rad);
@@ -206,9 +206,7 @@ class Commander {
   // The best length with a radius, to a centimetre.
   std::pair<double, DriveStep> best_length(std::size_t i, double radius_m) const {
     constexpr double kGolden = 0.6180339887498949;
-    const auto miss = [&](double length_m) {
-      return missed(i, {.drive_m = length_m, .radius_m = radius_m});
-    };
+    const auto miss = [&](double length_m) { return missed(i, {.drive_m = length_m, .radius_m = radius_m}); };
     double low = 0.8 * legs_[i].length_m, high = 1.2 * legs_[i].length_m;
     while (high - low > 0.005) {
       const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);

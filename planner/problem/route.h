@@ -38,12 +38,12 @@ struct Route {
   std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
   sim::DrivePrediction prediction;
   std::optional<DynamicVerification> dynamic;  // where it was verified
-  DriveSteps commands;                     // how it is driven; the prediction is of these
-  std::vector<WeightedCost> drawn_costs;   // by the number of the draw
-  double expected_cost = 0.0;              // the mean of the draws' costs
-  double cvar_cost = 0.0;                  // the mean of the dearest of them, see Ranking
-  double cost = 0.0;                       // the one of the two by which the route is ranked
-  std::vector<CostShare> shares;           // add up to cost
+  DriveSteps commands;                         // how it is driven; the prediction is of these
+  std::vector<WeightedCost> drawn_costs;       // by the number of the draw
+  double expected_cost = 0.0;                  // the mean of the draws' costs
+  double cvar_cost = 0.0;                      // the mean of the dearest of them, see Ranking
+  double cost = 0.0;                           // the one of the two by which the route is ranked
+  std::vector<CostShare> shares;               // add up to cost
   Verdict verdict = Verdict::kGo;
   DriveDecision decision;            // by the draws of the ground
   bool pareto = false;               // no other route of the plan dominates it, see dominates()

@@ -114,9 +114,7 @@ class FarProposer {
 
  private:
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
-  bool enough() const {
-    return out_.proposal.different(wanted()).size() >= wanted();
-  }
+  bool enough() const { return out_.proposal.different(wanted()).size() >= wanted(); }
 
   // The nodes of the places; false where no way joins two of them.
   bool find_nodes() {

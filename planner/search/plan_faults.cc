@@ -121,12 +121,13 @@ std::vector<Fault> faults_of_legs(const Waypoint& start, const std::vector<Waypo
   places.emplace_back("/goal", goal);
   std::vector<Fault> faults;
   for (std::size_t i = 1; i < places.size(); ++i) {
-    const auto &[before, from] = places[i - 1];
-    const auto &[pointer, to] = places[i];
+    const auto& [before, from] = places[i - 1];
+    const auto& [pointer, to] = places[i];
     if (std::hypot(to.x_m - from.x_m, to.y_m - from.y_m) >= kSamePlace_m) continue;
-    faults.push_back({pointer, fmt::format("{} at ({:.2f}, {:.2f}) is where {} is, at ({:.2f}, {:.2f}): there "
-                                           "is no way to plan between them",
-                                           pointer, to.x_m, to.y_m, before, from.x_m, from.y_m)});
+    faults.push_back(
+        {pointer, fmt::format("{} at ({:.2f}, {:.2f}) is where {} is, at ({:.2f}, {:.2f}): there "
+                              "is no way to plan between them",
+                              pointer, to.x_m, to.y_m, before, from.x_m, from.y_m)});
   }
   return faults;
 }

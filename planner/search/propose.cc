@@ -56,11 +56,13 @@ struct Way {
   }
 };
 
-// One route in the making: as it is smoothed under its guide's cost, and under the request's own.
+// One route in the making: as it is smoothed under its guide's cost, and of guides with another objective
+// than the request's also under the request's own.
 struct Draft {
   std::size_t guide = 0;
   const NamedPlanner* by = nullptr;
-  Way guided, asked;
+  Way guided;
+  std::optional<Way> asked;
   bool found = true;
 };
 
@@ -74,7 +76,9 @@ class Proposer {
         progress_(progress),
         places_(problem.places()),
         asked_cost_(problem, map, tables, problem.weights, problem.ranking.ranked_tail()),
+        smoothing_cost_(asked_cost_),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
+    smoothing_cost_.penalise(off_rises());
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
     if (!planners_.empty()) return;
     takes_default_set_ = true;
@@ -109,9 +113,7 @@ class Proposer {
  private:
   void add_planner(const PlannerRow& row) { planners_.push_back({std::string(row.name), row.make()}); }
 
-  bool enough() const {
-    return proposal_.different(wanted()).size() >= wanted();
-  }
+  bool enough() const { return proposal_.different(wanted()).size() >= wanted(); }
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
 
   // All guides with all planners, leg by leg.
@@ -119,7 +121,10 @@ class Proposer {
     std::vector<Draft> drafts;
     for (std::size_t g = 0; g < guides.size(); ++g)
       for (const NamedPlanner& planner : planners_)
-        drafts.push_back({.guide = g, .by = &planner, .guided = {}, .asked = {}});
+        drafts.push_back({.guide = g,
+                          .by = &planner,
+                          .guided = {},
+                          .asked = round == 0 && g > 0 ? std::optional<Way>(Way{}) : std::nullopt});
     for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
       if (progress_.cancelled()) return;
@@ -136,8 +141,9 @@ class Proposer {
     if (progress_.cancelled()) return;
     for (Draft& draft : drafts) {
       if (!draft.found) continue;
-      for (Way* const way : {&draft.guided, &draft.asked})
-        keep(draft.by->name, guides[draft.guide].profile, std::move(way->motions));
+      const std::string& profile = guides[draft.guide].profile;
+      keep(draft.by->name, profile, std::move(draft.guided.motions));
+      if (draft.asked) keep(draft.by->name, profile, std::move(draft.asked->motions));
     }
   }
 
@@ -157,7 +163,7 @@ class Proposer {
       const auto cell = static_cast<std::size_t>(map_.index_at(from.x_m, from.y_m));
       draft.guided.at = {from.x_m, from.y_m,
                          wrapped_rad(from.yaw_rad.value_or(guide.sampler->flow_rad(cell)))};
-      draft.asked.at = draft.guided.at;
+      if (draft.asked) draft.asked->at = draft.guided.at;
     }
     LegSearch search = leg_between(
         guide.cost, *guide.sampler, draft.guided.at, from, to,
@@ -166,8 +172,9 @@ class Proposer {
     std::vector<Pose2> poses = draft.by->planner->search(search);
     if (!joins(poses, search)) return false;
     draft.guided.add(smooth_leg(guide.cost, poses, to.yaw_rad.has_value()));
-    poses.front() = draft.asked.at;
-    draft.asked.add(smooth_leg(asked_cost_, poses, to.yaw_rad.has_value()));
+    if (!draft.asked) return true;
+    poses.front() = draft.asked->at;
+    draft.asked->add(smooth_leg(smoothing_cost_, poses, to.yaw_rad.has_value()));
     return true;
   }
 
@@ -229,6 +236,7 @@ class Proposer {
   Progress& progress_;
   std::vector<Waypoint> places_;
   MotionCost asked_cost_;
+  MotionCost smoothing_cost_;  // the same, dearer beside rises
   std::vector<NamedPlanner> planners_;
   bool takes_default_set_ = false;
   Proposal proposal_;

@@ -15,8 +15,8 @@
 
 namespace slipway::planner {
 
-// Candidates that every plan has by its default set of planners, whatever that is: the straight way from place
-// to place, and the grid's cheapest one.
+// Candidates that every plan has by its default set of planners, whatever that is: the straight way from
+// place to place, and the grid's cheapest one.
 constexpr std::string_view kStraightPlanner = "straight", kGridPlanner = "grid";
 
 // A route that a planner found, before it is simulated.
@@ -43,11 +43,11 @@ struct Proposal {
   std::vector<std::size_t> different(std::size_t wanted) const;
 };
 
-// Searches each profile with each planner that the problem names (none: the default set of `planners`, the grid
-// and the straight line), each smoothed under its profile and under what the request asks for, then
-// in rounds with the bands around the routes so far made dear, until `problem.routes` routes differ or the
-// rounds are used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where
-// there is no way (then grid_optimum is infinite) and where it was cancelled.
+// Searches each profile with each planner that the problem names (none: the default set of `planners`, the
+// grid and the straight line), smoothed under the profile and under what the request asks for, then in rounds
+// with the bands around the routes so far made dear, until `problem.routes` routes differ or the rounds are
+// used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where there is no way
+// (then grid_optimum is infinite) and where it was cancelled.
 Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
                         const TraverseMap& map, const GroundTables& tables, Progress& progress);
 

@@ -20,7 +20,7 @@ constexpr int kSweeps = 24;
 constexpr std::array<double, 6> kMoves_m{2.0, -2.0, 1.0, -1.0, 0.4, -0.4};
 constexpr std::array<double, 10> kRadii_m{400.0, 150.0, 80.0, 40.0, 25.0, 15.0, 10.0, 6.0, 4.0, 2.5};
 constexpr double kLeastArc_m = 0.2;  // that a rover is commanded
-constexpr double kGain = 1e-9;  // cheaper by less is not cheaper
+constexpr double kGain = 1e-9;       // cheaper by less is not cheaper
 // A jog to one side and back over less than this is left out where what it gains is a smaller share of the
 // cost about it: the search's cost of a turn in place knows nothing of a drive's draws.
 constexpr double kJog_m = 1.0;
@@ -89,8 +89,7 @@ class Polyline {
       sum += bend(heading, leaving) + side(line[k - 1], line[k]);
       heading = leaving;
     }
-    if (last + 2 < corners_.size())
-      sum += bend(heading, bearing_rad(corners_[last + 1], corners_[last + 2]));
+    if (last + 2 < corners_.size()) sum += bend(heading, bearing_rad(corners_[last + 1], corners_[last + 2]));
     return sum;
   }
 
@@ -183,7 +182,9 @@ std::vector<Motion> round_corners(const MotionCost& cost, std::vector<Motion> mo
     std::vector<Motion> best;
     for (const double radius : kRadii_m) {
       const double cut = radius * std::tan(0.5 * turn);
-      if (radius < limits.min_turn_radius_m || radius * turn < kLeastArc_m || (more_corners && cut > 0.5 * motions[i].length_m)) continue;
+      if (radius < limits.min_turn_radius_m || radius * turn < kLeastArc_m ||
+          (more_corners && cut > 0.5 * motions[i].length_m))
+        continue;
       std::vector<Motion> tried = round_corner(in, motions[i], radius);
       double sum = 0.0;
       for (const Motion& motion : tried) sum += cost.of(motion, fine);

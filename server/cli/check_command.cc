@@ -70,8 +70,8 @@ int check_file(CheckOptions options, const Pictures& pictures) {
 }  // namespace
 
 int check(const CheckOptions& given) {
-  const auto rover = models_rover(given.ask, given.drive.rover,
-                                  !given.request.empty() || !given.commands_file.empty());
+  const auto rover =
+      models_rover(given.ask, given.drive.rover, !given.request.empty() || !given.commands_file.empty());
   if (!rover) return refuse(rover.error());
   CheckOptions options = given;
   options.drive.rover = *rover;

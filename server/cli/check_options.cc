@@ -51,7 +51,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--report", options->report, "write one page for a meeting (HTML) to this file");
   command
       ->add_option("--request", options->request,
-                      "file with a whole request, - for standard input; other options are not used")
+                   "file with a whole request, - for standard input; other options are not used")
       ->excludes(file);
   command->footer(kCheckExample);
   command->callback([options, command, &run] {

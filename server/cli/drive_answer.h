@@ -33,8 +33,9 @@ Pictures pictures_of(const DriveOptions& drive);
 Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
                           const std::vector<PlaceOption*>& places);
 
-// Asks, draws what is wanted, then prints the document or its table. `placed` says of an error of the question
-// where it stands in what the user wrote. The exit status: that of the document's verdict, where all went well.
+// Asks, draws what is wanted, then prints the document or its table. `placed` says of an error of the
+// question where it stands in what the user wrote. The exit status: that of the document's verdict, where all
+// went well.
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view), ExitStatus (*verdict)(std::string_view),

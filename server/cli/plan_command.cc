@@ -96,8 +96,7 @@ int plan(const PlanOptions& given) {
   Pictures pictures = pictures_of(options.drive);
   pictures.commands = options.commands;
   pictures.route = options.route;
-  return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table,
-                       &plan_status);
+  return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status);
 }
 
 }  // namespace slipway::server

@@ -112,8 +112,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
   const auto most = static_cast<std::size_t>(std::max(options.draws, options.max_draws));
   do {
     const std::size_t count = next_batch(drives.size(), options);
-    while (drives.size() < std::min(count, before.size()))
-      drives.push_back(std::move(before[drives.size()]));
+    while (drives.size() < std::min(count, before.size())) drives.push_back(std::move(before[drives.size()]));
     if (!draw_more(driver, count, drive.stations.size(), options, threads, progress, drives)) {
       drives.clear();  // some were cut short
       return false;
@@ -130,7 +129,8 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
       prediction.worst_place = {station.risk, station.station.distance_m};
   }
   if (drives.size() < before.size())
-    drives.insert(drives.end(), std::make_move_iterator(before.begin() + static_cast<std::ptrdiff_t>(drives.size())),
+    drives.insert(drives.end(),
+                  std::make_move_iterator(before.begin() + static_cast<std::ptrdiff_t>(drives.size())),
                   std::make_move_iterator(before.end()));
   if (prediction.without_stance) prediction.worst_place = {1.0, prediction.without_stance->distance_m};
   return true;

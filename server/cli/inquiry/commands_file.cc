@@ -36,7 +36,8 @@ bool has(const JsonValue& document, std::string_view pointer) {
 
 bool is_table(std::string_view bytes, std::string_view name) {
   if (name.ends_with(".csv")) return true;
-  return name == "-" && !bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size())).starts_with('{');
+  return name == "-" &&
+         !bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size())).starts_with('{');
 }
 
 }  // namespace
