@@ -31,6 +31,56 @@ expect 2 "$slipway" check --data "$data" --start 8142640,-276640 --command hop=2
 grep -q '/commands/0' "$folder/err"
 grep -q '/rules' "$folder/err"
 grep -q '/start' "$folder/err"
+
+# A plan's commands give a check the same figures, from either file; options stand over what a file says.
+expect verdict "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142632,-276642 --routes 1 --draws 24 \
+  --max-tilt-deg 22 --commands "$folder/route.json" --json
+cp "$folder/out" "$folder/plan.json"
+expect verdict "$slipway" check --data "$data" --commands "$folder/route.json" --json
+cp "$folder/out" "$folder/check.json"
+expect verdict "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142632,-276642 --routes 1 --draws 24 \
+  --max-tilt-deg 22 --commands "$folder/route.csv"
+grep -q '^# terrain: gale$' "$folder/route.csv"
+grep -q '^command,value,radius_m$' "$folder/route.csv"
+expect verdict "$slipway" check --data "$data" --commands "$folder/route.csv" --draws 24 --max-tilt-deg 22 --json
+python3 - "$folder/plan.json" "$folder/check.json" "$folder/out" <<'END'
+import json, sys
+plan, *checks = (json.load(open(path)) for path in sys.argv[1:])
+route = plan["routes"]["features"][0]["properties"]
+for check in checks:
+    assert check["outcomes"] == route["outcomes"], (check["outcomes"], route["outcomes"])
+    for key, value in check["summary"].items():
+        assert plan["summary"][0].get(key, value) == value, (key, value, plan["summary"][0][key])
+    assert check["request"]["commands"] == plan["summary"][0]["commands"]
+    assert check["request"]["limits"]["max_tilt_deg"] == 22
+END
+expect verdict "$slipway" check --data "$data" --commands "$folder/route.json" --max-tilt-deg 21 --json
+grep -q '"max_tilt_deg":21' "$folder/out"
+grep -q '"draws":24' "$folder/out"
+expect 2 "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142632,-276642 --routes 1 --draws 2 \
+  --commands "$folder/no.csv" --route 2
+grep -q 'the plan has 1 route' "$folder/err"
+cat > "$folder/bad.csv" <<'END'
+# terrain: gale
+# start_x_m: 8142640
+# start_y_m: north
+command,value,radius_m
+hop,2,
+drive,-3,
+arc,2,
+turn,30,4
+END
+expect 2 "$slipway" check --data "$data" --commands "$folder/bad.csv"
+for place in 'line 3' 'line 5, column 1' 'line 6, column 2' 'line 7, column 3' 'line 8, column 3' 'start_yaw_deg'; do
+  grep -q "$place" "$folder/err" || { echo "no fault at $place"; cat "$folder/err"; exit 1; }
+done
+printf '{"terrain": "gale", "rover": "msl-class",\n "start": {"x_m": 8142640, "y_m": -276640, "yaw_deg": 180},\n "commands": [{"drive_m": 2},\n  {"drive_m": "far"}]}' > "$folder/bad.json"
+expect 2 "$slipway" check --data "$data" --commands "$folder/bad.json"
+grep -q 'line 4, column 15 (/commands/1/drive_m)' "$folder/err" || { cat "$folder/err"; exit 1; }
+# Nobody plans a way to where the rover is.
+expect 2 "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142640,-276640
+grep -q '/goal at .* is where /start is' "$folder/err"
+
 expect 2 "$slipway" check some_campaign --model some_model
 grep -q 'slipway test-model' "$folder/err" "$folder/out"
 
