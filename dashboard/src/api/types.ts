@@ -417,7 +417,7 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * GO, NO-GO or UNKNOWN for a path or a command sequence
+         * GO, NO-GO or UNKNOWN for a path, a command sequence or a route of a plan
          * @description A job like a plan, for which the service waits 10 seconds unless Prefer says otherwise: usually the answer comes at once. What takes longer is answered with 201 and goes on.
          */
         post: operations["create_check"];
@@ -1545,7 +1545,9 @@ export interface components {
             reasons?: string[];
             /** @description No other route of the plan is at least as good in duration, energy, expected stops and embedding, and better in one of them */
             pareto?: boolean;
+            /** @description By which routes are ranked: the mean of the costs of the draws of the ground, or their CVaR */
             cost?: number;
+            /** @description The terms of cost; value is in the mean of the draws that rank */
             cost_shares?: {
                 name?: string;
                 value?: number;
@@ -1553,7 +1555,7 @@ export interface components {
                 weight?: number;
                 cost?: number;
             }[];
-            /** @description Mean of the costs of the draws of the ground; cost is of the mean soils */
+            /** @description Mean of the costs of the draws of the ground */
             expected_cost?: number;
             /** @description Mean of the dearest of them, of the share of the draws that ranking.tail names */
             cvar_cost?: number;
@@ -1610,6 +1612,9 @@ export interface components {
             embedding?: components["schemas"]["DrawnShare"];
             expected_stops?: number;
             dynamic?: components["schemas"]["DynamicFigures"];
+            start?: components["schemas"]["Waypoint"];
+            /** @description How the route is driven from start, as POST /v1/checks takes it. The figures are of these commands: a check of them under the same assumptions gives the same */
+            commands?: components["schemas"]["DriveCommand"][];
         };
         /** @description The drive at the dynamic level: the rover as a multibody with motors and soil under every wheel, its pose fed back, under the mean soils. max_slip is of the mean over the time that two wheel radii take at cruise speed. Absent where it was not asked for */
         DynamicFigures: {
@@ -1815,7 +1820,9 @@ export interface components {
                     reasons?: string[];
                     /** @description No other route of the plan is at least as good in duration, energy, expected stops and embedding, and better in one of them */
                     pareto?: boolean;
+                    /** @description By which routes are ranked: the mean of the costs of the draws of the ground, or their CVaR */
                     cost?: number;
+                    /** @description The terms of cost; value is in the mean of the draws that rank */
                     cost_shares?: {
                         name?: string;
                         value?: number;
@@ -1823,7 +1830,7 @@ export interface components {
                         weight?: number;
                         cost?: number;
                     }[];
-                    /** @description Mean of the costs of the draws of the ground; cost is of the mean soils */
+                    /** @description Mean of the costs of the draws of the ground */
                     expected_cost?: number;
                     /** @description Mean of the dearest of them, of the share of the draws that ranking.tail names */
                     cvar_cost?: number;
@@ -1880,6 +1887,9 @@ export interface components {
                     decision?: components["schemas"]["Decision"];
                     outcomes?: components["schemas"]["DriveOutcomes"];
                     position_uncertainty?: components["schemas"]["PositionUncertainty"];
+                    start?: components["schemas"]["Waypoint"];
+                    /** @description How the route is driven from start, as POST /v1/checks takes it. The figures are of these commands: a check of them under the same assumptions gives the same */
+                    commands?: components["schemas"]["DriveCommand"][];
                 };
             }[];
         };
@@ -3287,21 +3297,22 @@ export interface components {
             verdict: "go" | "no_go" | "unknown";
             reasons: string[];
         };
+        /** @description terrain and rover are required, but where plan names them */
         CheckRequest: {
-            terrain: string;
-            rover: string;
+            terrain?: string;
+            rover?: string;
             /** @description Corners, joined by turns in place and straight drives: two or more. With drive_so_far one is enough: the way leads there from where that drive is now */
             path?: components["schemas"]["Waypoint"][];
             start?: components["schemas"]["Waypoint"];
             /** @description Instead of path, from start with its yaw_deg: each command has exactly one of drive_m, arc_m (with radius_m, positive to the left) and turn_deg */
-            commands?: {
-                drive_m?: number;
-                arc_m?: number;
-                radius_m?: number;
-                turn_deg?: number;
-                /** @default 1 */
-                repeat: number;
-            }[];
+            commands?: components["schemas"]["DriveCommand"][];
+            /** @description Instead of path, start and commands: the job of a plan, of whose route the commands are checked. Terrain, rover and all that the plan assumes of a drive are the plan's; other members of the request stand over these */
+            plan?: string;
+            /**
+             * @description With plan: which of its routes, by rank
+             * @default 1
+             */
+            route: number;
             /** @description A set of rules of the service's data (every_5_m, slip_70): its limits, checks and bars, before those of the request */
             rules?: string;
             /** @description Polygons as rings of [x_m, y_m] in map metres; closed implicitly. A drive that enters one is a no_go */
@@ -4219,6 +4230,15 @@ export interface components {
             verdicts: {
                 [key: string]: number;
             };
+        };
+        /** @description Exactly one of drive_m, arc_m (with radius_m, positive to the left) and turn_deg */
+        DriveCommand: {
+            drive_m?: number;
+            arc_m?: number;
+            radius_m?: number;
+            turn_deg?: number;
+            /** @default 1 */
+            repeat: number;
         };
     };
     responses: never;
