@@ -45,6 +45,7 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
       "--commands", options->commands,
       "write the commands of the best route to this file: a table where it ends in .csv, otherwise the whole "
       "request of a check (JSON)");
+  commands->excludes(command->get_option("--compare"));
   command->add_option("--route", options->route, "whose commands, by rank; 1 where not given")
       ->needs(commands);
   command->add_option("--request", options->request,
