@@ -11,6 +11,7 @@
 
 #include "api/documents/station_csv.h"
 #include "api/jobs/job_runner.h"
+#include "api/plan_reference.h"
 #include "api/service.h"
 
 namespace slipway::api {
@@ -74,6 +75,7 @@ struct JobKindRow {
   Lane lane = Lane::kUsual;     // see worker_kinds()
   bool may_name_model = false;  // the request may name a diagnosis whose model it is answered with
   bool may_continue = false;    // the request may continue an earlier one: see continued_request.h
+  bool may_name_plan = false;   // the request may name a route of a plan: see plan_reference.h
 };
 
 // A row whose types of request and answer are hidden in its functions.
@@ -133,11 +135,14 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   kind.has_lines = row->lines != nullptr;
   kind.usual_wait = row->usual_wait;
   kind.lane = row->lane;
-  kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {
+  kind.accept = [row](const Service& service, JobStore& store,
+                      std::string_view posted) -> Result<std::string> {
+    const auto body = row->may_name_plan ? with_plans_route(posted, store) : Result<std::string>(posted);
+    if (!body) return body;
     const NamesJob names = row->may_name_model ? NamesJob::kModel
                            : row->may_continue ? NamesJob::kContinued
                                                : NamesJob::kNone;
-    return recorded_request(body, row->name, store, names,
+    return recorded_request(*body, row->name, store, names,
                             [&](std::string_view request) -> std::optional<Error> {
                               const auto read = row->read(service, request);
                               return read ? std::nullopt : std::optional<Error>(read.error());

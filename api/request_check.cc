@@ -13,6 +13,7 @@
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
 #include "dem/body_degrees.h"
+#include "planner/search/plan_faults.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
 
@@ -90,6 +91,14 @@ void RequestCheck::ground(const std::optional<RequestedModel>& model,
     if (std::find(there.begin(), there.end(), named[i]) == there.end())
       add(ErrorCode::kInvalidRequest, fmt::format("{}/{}", place, i),
           fmt::format("{} is no soil of this terrain: {}", in_quotes(named[i]), fmt::join(there, ", ")));
+}
+
+void RequestCheck::legs(const PlanRequest& request) {
+  // Of places that were not read it would say nonsense.
+  for (const std::string_view place : {"/start", "/goal", "/waypoints"})
+    if (already_faulty(place)) return;
+  for (Fault& fault : planner::faults_of_legs(request.start, request.waypoints, request.goal))
+    add(ErrorCode::kInvalidRequest, std::move(fault.pointer), std::move(fault.message));
 }
 
 void RequestCheck::place(const planner::Waypoint& place, const std::string& pointer) {

@@ -26,6 +26,8 @@ class RequestCheck {
   // these the terrain has to have some.
   void ground(const std::optional<RequestedModel>& model, const std::vector<std::string>& of_service);
   void place(const planner::Waypoint& place, const std::string& pointer);
+  // Places that follow each other on the way are not one place.
+  void legs(const PlanRequest& request);
   void drive(const DriveAssumptions& drive);
   // among_zones: the request has keep-outs or keep-ins.
   void crab(double crab_rad, bool among_zones);

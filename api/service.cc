@@ -35,9 +35,6 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
   check.crab(request.manner.crab_rad, !request.keep_out.empty() || !request.keep_in.empty());
 }
 
-// Of each route of a plan: 272 without an embedding are the fewest that make a GO.
-constexpr int kMaxPlanDraws = 272;
-
 // After the work it is known which tiles of a large terrain were looked at, and whether all could be read.
 Result<void> account_for_tiles(const dem::Terrain& terrain, Provenance& provenance) {
   if (const auto damage = terrain.damage()) return fail(*damage);
@@ -113,6 +110,7 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
                    check.place(request.goal, "/goal");
                    for (std::size_t i = 0; i < request.waypoints.size(); ++i)
                      check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
+                   check.legs(request);
                    check.planners(request.planners, options_.planners);
                  });
 }
@@ -203,10 +201,8 @@ Result<PlanAnswer> Service::plan_within(const std::optional<dem::Extent>& window
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;
-  problem.deciding_draws = std::exchange(problem.risk.max_draws, 0) > 0 ? kMaxPlanDraws : 0;
   // Of many draws that a drive so far has left the first rank the candidates.
-  if (problem.risk.draws > kWeighedDraws && request.drive.drive_so_far)
-    problem.deciding_draws = std::exchange(problem.risk.draws, kWeighedDraws);
+  if (request.drive.drive_so_far) problem.ranking_draws = kWeighedDraws;
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)

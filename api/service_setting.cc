@@ -11,6 +11,7 @@
 #include "api/requests/soil_regions.h"
 #include "api/service.h"
 #include "api/soil_beliefs.h"
+#include "planner/judge/deciding_draws.h"
 
 namespace slipway::api {
 namespace {
@@ -101,9 +102,6 @@ std::vector<planner::Waypoint> places_to_read(const TerrainSite& site, const Dri
   return places;
 }
 
-// Draws of a decision: the fewest that say something, and the most that are taken.
-constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
-
 }  // namespace
 
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
@@ -141,8 +139,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.limits = drive.limits;
   // The seed is that of the draws alone: the routes that are compared are the same under each.
   problem.risk.seed = drive.seed;
-  problem.risk.draws = drive.draws.value_or(kFirstDraws);
-  problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
+  problem.risk.draws = drive.draws.value_or(planner::kFirstDraws);
+  problem.risk.max_draws = drive.draws ? 0 : planner::kMostDraws;
   problem.risk.checks = drive.checks;
   problem.risk.segment_m = drive.segment_m.value_or(0.0);
   problem.risk.bars = drive.bars;

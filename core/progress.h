@@ -11,7 +11,7 @@ namespace slipway {
 struct RouteSoFar {
   double cost = 0.0;  // by which it is the best: the search's own, or of the simulation once it has a verdict
   double length_m = 0.0;
-  std::string verdict;                        // "go", "caution", "no_go"; empty before it was simulated
+  std::string verdict;                        // "go", "no_go", "unknown"; empty before it was simulated
   std::vector<std::array<double, 2>> line_m;  // x, y; a few hundred places at the most
 };
 

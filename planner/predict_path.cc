@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "planner/judge/advice.h"
+#include "planner/judge/deciding_draws.h"
 #include "planner/judge/drive_verdict.h"
 #include "planner/judge/route_stations.h"
 #include "planner/judge/verify_route.h"
@@ -64,9 +65,10 @@ std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const std:
 Result<sim::DrivePrediction> predict_stations(const PlanProblem& problem,
                                               const std::vector<sim::PathStation>& stations,
                                               Progress& progress) {
-  return sim::predict_drive(*problem.rover, problem.gravity_m_s2,
-                            TerrainGround(problem.terrain, problem.soil_map), problem.beliefs, stations,
-                            problem.limits, problem.risk, problem.threads, progress, problem.conditions);
+  return sim::predict_drive(
+      *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map), problem.beliefs,
+      stations, problem.limits, risk_of_drive(problem.risk, stations.back().distance_m, stations.size()),
+      problem.threads, progress, problem.conditions);
 }
 
 // "/stations/12" to the corner on the way to which it lies.
@@ -116,23 +118,6 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
 
 std::vector<Motion> path_motions(const std::vector<Waypoint>& corners, const Manner& manner) {
   return join(corners, manner).motions;
-}
-
-std::vector<Motion> command_motions(const Pose2& start, const std::vector<DriveStep>& steps) {
-  std::vector<Motion> motions;
-  Pose2 at = start;
-  for (const DriveStep& step : steps) {
-    Motion motion{.from = at, .to = at};
-    motion.first_turn_rad = step.turn_rad;
-    motion.length_m = step.drive_m;
-    motion.curvature_1_m = step.curvature_1_m;
-    motion.to = motion.at(step.drive_m);
-    motion.to.yaw_rad = wrapped_rad(motion.to.yaw_rad);
-    at = motion.to;
-    motions.push_back(motion);
-  }
-  if (motions.empty()) motions.push_back({.from = at, .to = at});
-  return motions;
 }
 
 Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const std::vector<Motion>& motions,

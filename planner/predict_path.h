@@ -4,6 +4,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
+#include "planner/problem/drive_step.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/motion.h"
 #include "planner/problem/problem.h"
@@ -14,15 +15,6 @@ namespace slipway::planner {
 // The motions of a path: turns in place and straight drives from corner to corner, by their direction of
 // travel.
 std::vector<Motion> path_motions(const std::vector<Waypoint>& corners, const Manner& manner = {});
-
-// One command of a sequence: a straight drive or an arc, or a turn in place.
-struct DriveStep {
-  double drive_m = 0.0;        // 0 for a turn in place
-  double curvature_1_m = 0.0;  // of an arc, positive to the left
-  double turn_rad = 0.0;       // of a turn in place, positive to the left
-};
-// The motions that the commands ask for, from where the rover stands; at least one.
-std::vector<Motion> command_motions(const Pose2& start, const std::vector<DriveStep>& steps);
 
 // Predicts the drive along given motions. Errors: no_data with the place ("/stations/12").
 Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const std::vector<Motion>& motions,

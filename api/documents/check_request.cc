@@ -1,53 +1,13 @@
 #include "api/documents/check_request.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "api/documents/drive_assumptions.h"
+#include "api/documents/drive_commands.h"
 #include "api/documents/zones.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 
 namespace slipway::api::json {
 namespace {
-
-constexpr std::size_t kMaxCommands = 1000;
-constexpr int kMaxRepeats = 1000;
-
-// One of {"drive_m": 5}, {"arc_m": 4, "radius_m": 6} and {"turn_deg": -30}, with "repeat" where it is done
-// again.
-void read_command(const Element& element, CheckRequest& request, std::vector<Fault>& faults) {
-  ObjectReader row(*element.value, element.pointer, faults);
-  if (!row.is_object()) return;
-  planner::DriveStep step;
-  const bool drives = row.number("drive_m", kOptional, {"m", 0.0, 1000.0, true}, step.drive_m);
-  const bool arcs = row.number("arc_m", kOptional, {"m", 0.0, 1000.0, true}, step.drive_m);
-  const bool turns = row.angle_deg("turn_deg", kOptional, {"deg", -360.0, 360.0}, step.turn_rad);
-  double radius_m = 0.0;
-  if (arcs) {
-    if (row.number("radius_m", kRequired, {"m", -1e6, 1e6}, radius_m)) {
-      if (std::abs(radius_m) < 0.01)
-        row.fault("radius_m", "radius_m must be 0.01 m or more to the left, or as much below 0 to the right");
-      else
-        step.curvature_1_m = 1.0 / radius_m;
-    }
-  }
-  int repeats = 1;
-  row.whole("repeat", kOptional, 1, kMaxRepeats, repeats);
-  row.refuse_unknown();
-  if (static_cast<int>(drives) + static_cast<int>(arcs) + static_cast<int>(turns) != 1) {
-    faults.push_back({element.pointer, "a command has exactly one of drive_m, arc_m and turn_deg"});
-    return;
-  }
-  if (request.commands.size() + static_cast<std::size_t>(repeats) > kMaxCommands) {
-    faults.push_back(
-        {element.pointer, fmt::format("there must be at most {} commands, repeats counted", kMaxCommands)});
-    return;
-  }
-  request.commands.insert(request.commands.end(), static_cast<std::size_t>(repeats), step);
-}
 
 // `under_way`: the request has a drive so far, from whose last place the way may begin.
 void read_way(ObjectReader& reader, bool under_way, CheckRequest& request, std::vector<Fault>& faults) {
@@ -69,8 +29,7 @@ void read_way(ObjectReader& reader, bool under_way, CheckRequest& request, std::
     if (!request.path.back().yaw_rad && !has_fault_under(faults, "/start"))
       reader.fault("start", "start must have yaw_deg: commands begin with the rover's heading");
   }
-  for (const Element& element : reader.list("commands", kRequired, {1, kMaxCommands}))
-    read_command(element, request, faults);
+  read_commands(reader, request.commands);
 }
 
 // The rest of a drive under way: a path of one corner leads there from where it is, and commands begin there.
@@ -86,17 +45,6 @@ void begin_where_it_is(ObjectReader& reader, CheckRequest& request, std::vector<
                    "start is missing: commands begin with the rover's heading, and the last row of "
                    "drive_so_far has no yaw_deg");
   }
-}
-
-void write_command(Writer& w, const planner::DriveStep& step) {
-  w.begin_object();
-  if (step.drive_m <= 0.0)
-    w.angle_deg("turn_deg", step.turn_rad);
-  else if (step.curvature_1_m == 0.0)
-    w.exact("drive_m", step.drive_m);
-  else
-    w.exact("arc_m", step.drive_m).exact("radius_m", 1.0 / step.curvature_1_m);
-  w.end_object();
 }
 
 }  // namespace
@@ -140,9 +88,7 @@ std::string write_check_request(const CheckRequest& request) {
     w.end_array();
   } else {
     write_waypoint(w.key("start"), request.path.front());
-    w.key("commands").begin_array();
-    for (const planner::DriveStep& step : request.commands) write_command(w, step);
-    w.end_array();
+    write_commands(w, request.commands);
   }
   w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
   if (!request.rules.empty()) w.text("rules", request.rules);

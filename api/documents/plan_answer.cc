@@ -1,6 +1,7 @@
 #include "api/documents/plan_answer.h"
 
 #include "api/documents/check_answer.h"
+#include "api/documents/drive_commands.h"
 #include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/drive_so_far.h"
@@ -26,6 +27,7 @@ void write_judged_route(Writer& w, const planner::Route& route) {
   w.end_array();
   w.significant("expected_cost", route.expected_cost).significant("cvar_cost", route.cvar_cost);
   write_drive_figures(w, route.prediction);
+  write_drive_steps(w, route.commands);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/requests/plan_request.h"
-#include "planner/predict_path.h"
+#include "planner/problem/drive_step.h"
 
 namespace slipway::api {
 

@@ -42,8 +42,8 @@ struct DriveAssumptions : DriveRules {
   std::optional<double> confidence;    // in the legend; the legend's own where it is empty
   std::string legend;                  // of the terrain's legends; the first where it is empty
   std::optional<ReliefValues> relief;  // the relief is drawn too, with these over the terrain's own values
-  // Length of the segments by which a drive is decided; where it is empty, a plan over a kilometre and more
-  // has segments of kSegment_m, and no other drive has any.
+  // Length of the segments by which a drive is decided; where it is empty, a drive of a kilometre and more
+  // has segments of kSegment_m, and no other has any.
   std::optional<double> segment_m;
   std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's

@@ -1,5 +1,6 @@
 // What is shown, in the address: a link to it shows it again, and a reload loses nothing.
-import { riskTitles, type RiskKind } from "./map/risk_map";
+import { riskTitles } from "./map/risk_map";
+import type { RiskKind } from "./map/risk_types";
 import { nothingDrawn, store, type Drawn, type Model, type Options, type Place, type Ring, type RouteColour, type State, type Tab } from "./state";
 
 export interface Link {

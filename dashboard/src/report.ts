@@ -1,10 +1,11 @@
 // A page of paper: what the meeting needs of a route, legible in black and white.
 import { fill, h } from "./dom";
-import { number, share, words } from "./format";
+import { number, sentence, share, words } from "./format";
 import { lengthText } from "./map/scale_bar";
 import type { TerrainMap } from "./map/terrain_map";
-import { figures, provenance, reasonText, unit } from "./panels/verdict";
-import { ruleWords, verdictWords, type Result, type Route } from "./result";
+import { reasonText } from "./panels/advice";
+import { figures, nearest, provenance, unit } from "./panels/verdict";
+import { verdictWords, type Result, type Route } from "./result";
 import { palettes, store } from "./state";
 
 const paper = h("section", { class: "paper", "aria-hidden": "true" });
@@ -51,7 +52,7 @@ function page(map: TerrainMap): HTMLElement[] {
     h("header", {}, h("div", {}, h("h1", {}, `${kindWords[result.kind] ?? words(result.kind)}: ${title}`), h("p", {}, asked(result))), h("div", { class: `paper-verdict ${route.verdict}` }, verdictWords[route.verdict], h("small", {}, route.title))),
     mapPicture(map),
     h("div", { class: "paper-columns" },
-      h("div", {}, h("h2", {}, "Why"), h("ul", {}, route.reasons.slice(0, reasons_shown).map((reason) => h("li", {}, reasonText(reason))))),
+      h("div", {}, h("h2", {}, "Why"), h("ul", {}, route.decision.reasons.slice(0, reasons_shown).map((reason) => h("li", {}, reasonText(reason))))),
       h("div", {}, h("h2", {}, "Figures"), figureTable(result))),
     h("h2", {}, "Rules: limit, nearest value (5 to 95 % of the draws), share of the draws in which it trips, where, why"),
     ruleTable(route),
@@ -89,8 +90,8 @@ function figureTable(result: Result): HTMLElement {
 }
 
 function ruleTable(route: Route): HTMLElement {
-  return h("table", {}, h("tbody", {}, route.rules.map((r) => h("tr", { class: (r.trips?.value ?? 0) > 0 ? "trips" : "" },
-    h("th", {}, ruleWords[r.rule] ?? words(r.rule)), h("td", {}, `${number(r.limit)}${unit(r.unit)}`), h("td", {}, r.value ? `${number(r.value.p50)} (${number(r.value.p05)} to ${number(r.value.p95)})` : "–"), h("td", {}, share(r.trips?.value)), h("td", {}, r.from_m === null || !r.trips?.value ? "" : `${r.from_m.toFixed(0)} to ${r.to_m?.toFixed(0)} m`), h("td", {}, [r.cause && words(r.cause), r.wheel].filter(Boolean).join(", "))))));
+  return h("table", {}, h("tbody", {}, route.outcomes.rules.map((r) => h("tr", { class: r.from_m !== null ? "trips" : "" },
+    h("th", {}, sentence(r.words)), h("td", {}, `${number(r.limit)}${unit(r.unit)}`), h("td", {}, nearest(r)), h("td", {}, share(r.trips.value)), h("td", {}, r.from_m === null ? "" : `${r.from_m.toFixed(0)} to ${r.to_m?.toFixed(0)} m`), h("td", {}, [r.cause && words(r.cause), r.wheel].filter(Boolean).join(", "))))));
 }
 
 function chartPictures(): HTMLElement[] {

@@ -23,6 +23,10 @@ export interface Stations {
   slip_p05: Column;
   slip_p50: Column;
   slip_p95: Column;
+  aside_m: Column;
+  aside_m_p05: Column;
+  aside_m_p95: Column;
+  side_slip_deg: Column;
   sinkage_m_p95: Column;
   current_a_p95: Column;
   power_w: Column;
@@ -35,52 +39,16 @@ export interface Stations {
   wheels: Record<string, Record<string, Column>>;
 }
 
-export type Rule = {
-  rule: string;
-  unit: string;
-  limit: number;
-  value: { p05: number; p50: number; p95: number } | null;
-  margin: number | null;
-  trips: { value: number; low: number; high: number };
-  from_m: number | null;
-  to_m: number | null;
-  wheel: string | null;
-  cause: string | null;
-};
-export interface Stretch {
-  from_m: number;
-  to_m: number;
-  expected_stops: number;
-  embedding: number;
-}
-export interface Share {
-  value: number;
-  low: number;
-  high: number;
-}
-
-export type Verdict = "go" | "no_go" | "unknown";
-
-export interface Outcomes {
-  stop?: Share;
-  embedding?: Share;
-  expected_stops?: Share;
-  completed?: Share;
-  draws?: number;
-  recommended?: { max_tilt_deg?: number | null; slip_checks_before_m?: number[] };
-  scout?: { soil: string | null; from_m: number; to_m: number; verdict_afterwards: { go: number } } | null;
-  segments?: { from_m: number; to_m: number; verdict: Verdict; expected_stops?: { value: number }; embedding?: Share; reached?: number }[];
-}
+export type Rule = Schemas["RuleRisk"];
+export type Verdict = Schemas["Verdict"];
 
 export interface Route {
   title: string;
   verdict: Verdict;
-  reasons: string[];
+  decision: Schemas["Decision"];
   figures: Schemas["DriveFigures"];
   stations: Stations;
-  rules: Rule[];
-  stretches: Stretch[];
-  outcomes: Outcomes;
+  outcomes: Schemas["DriveOutcomes"];
   notes: string[]; // what made a plan rank it as it did
 }
 
@@ -111,18 +79,15 @@ export interface Result {
 
 /* eslint-disable @typescript-eslint/no-explicit-any -- the documents' parts have no schemas of their own */
 function routeOf(properties: any, document: any, title: string): Route {
-  const decision = properties.decision ?? document.decision ?? { verdict: document.verdict, reasons: document.reasons };
-  const outcomes = properties.outcomes ?? document.outcomes ?? {};
+  const decision: Schemas["Decision"] = properties.decision ?? document.decision;
   return {
     title,
-    verdict: decision.verdict ?? "unknown",
-    reasons: decision.reasons ?? [],
+    verdict: decision.verdict,
+    decision,
     figures: properties.rank !== undefined ? properties : document.summary,
     stations: properties.stations,
-    rules: outcomes.rules ?? [],
-    stretches: outcomes.stretches ?? [],
-    outcomes,
-    notes: properties.rank !== undefined ? (properties.reasons ?? []) : [],
+    outcomes: properties.outcomes ?? document.outcomes,
+    notes: properties.rank !== undefined ? properties.reasons : [],
   };
 }
 
@@ -163,9 +128,9 @@ export function stationAt(stations: Stations, at_m: number): number {
   return at_m - d[low]! <= d[high]! - at_m ? low : high;
 }
 
-/** The class of each station, 0 to 4, by what is expected to go wrong on its stretch or by slip; null: unknown ground. */
+/** The class of each station, 0 to 4, by the halts and embeddings on its stretch or by slip; null: unknown ground. */
 export function classesOf(route: Route, by: "risk" | "slip", bounds: number[]): (number | null)[] {
-  const { stations, stretches } = route;
+  const { stations, outcomes: { stretches } } = route;
   const classOf = (value: number) => bounds.filter((bound) => value >= bound).length;
   let k = 0;
   return stations.distance_m.map((at, i) => {
@@ -178,23 +143,15 @@ export function classesOf(route: Route, by: "risk" | "slip", bounds: number[]): 
 }
 
 export const classTitles = {
-  risk: "Stops and embeddings expected on a stretch",
+  risk: "Halts and embeddings on a stretch, share of the draws",
   slip: "Slip (95 % of the draws are below)",
 };
 
 export const classLabels = (bounds: number[]): string[] => [`below ${bounds[0]}`, ...bounds.slice(1).map((b, i) => `${bounds[i]} to ${b}`), `above ${bounds.at(-1)}`];
 
-export const ruleWords: Record<string, string> = {
-  slip_check: "slip at a check",
-  tilt: "tilt",
-  current: "current",
-  sinkage: "sinkage",
-  clearance: "clearance",
-  immobilised: "no way forward",
-  embedding: "embedding",
-};
-
 /** The rules that trip somewhere in some of the draws, those that trip most first. */
-export const tripsOf = (route: Route): Rule[] => route.rules.filter((r) => (r.trips?.value ?? 0) > 0 && r.from_m !== null).sort((a, b) => b.trips.value - a.trips.value);
+export const tripsOf = (route: Route): Rule[] => route.outcomes.rules.filter((r) => r.from_m !== null).sort((a, b) => b.trips.value - a.trips.value);
 
 export const verdictWords: Record<Verdict, string> = { go: "GO", no_go: "NO-GO", unknown: "UNKNOWN" };
+/** Green, red and amber, apart by lightness too. */
+export const verdictColours: Record<Verdict, string> = { go: "#66bd63", no_go: "#a50026", unknown: "#fdae61" };

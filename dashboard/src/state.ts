@@ -1,6 +1,6 @@
 // What the page shows, in one place; parts of the page listen to the keys that they draw.
 import type { CostTerm, Campaign, Diagnosis, Effect, Job, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
-import type { RiskMap } from "./map/risk_map";
+import type { RiskMap } from "./map/risk_types";
 import type { Result } from "./result";
 
 export interface Place {

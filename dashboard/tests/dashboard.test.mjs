@@ -165,7 +165,8 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await p.fill("#panel-check textarea >> nth=0", slopes);
   await p.click('[data-do="check"]');
   assert.equal(await p.verdict(), "no_go");
-  assert.equal(await p.textContent(".banner"), "NO-GOPath, msl-class");
+  assert.match(await p.textContent(".banner"), /^NO-GOPath, msl-classP\(stop\) \d+ % \(\d+ to \d+ %\)$/);
+  assert.ok((await p.locator('[data-reasons="no_go"] .badge.no_go').count()) > 0, "what says no-go is marked so");
   assert.ok((await p.locator("tr.trips").count()) > 0);
   await p.locator('tr.trips button:text("m")').first().click();
   await p.until(() => / m$/.test(document.querySelector(".readout").textContent));
@@ -185,7 +186,7 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   // One that starts on unknown ground can't become one by another way.
   await p.fill("#panel-check textarea >> nth=0", "8142582,-276581\n8142588,-276585");
   await p.click('[data-do="check"]');
-  await p.waitForSelector('.advice li:has-text("lie on unknown ground")');
+  await p.waitForSelector('.reasons li:has-text("unmapped ground")');
   assert.notEqual(await p.verdict(), "go");
 
   // Commands, and a drive under way.

@@ -138,21 +138,44 @@ test("work is followed by its events, and by asking where these do not come thro
   await q.done();
 });
 
-test("a stranger finds out why a drive is no GO, changes one thing and gets a GO", async () => {
+test("a stranger finds out why a drive is no GO, and does what is advised", async () => {
   // Whoever names no terrain gets one on which a drive can be a GO.
-  const p = await open(browser, `${service.url}/dashboard/#start=8142579.7,-276648.7&goal=8142560,-276672&routes=1`);
+  const p = await open(browser, `${service.url}/dashboard/#start=8142579.7,-276648.7&goal=8142560,-276672&routes=2`);
+  // Each kind of advice, whatever this ground gives.
+  const nearer = { x_m: 8142585, y_m: -276646 };
+  await p.route(/\/result$/, async (route) => {
+    const answer = await (await route.fetch()).json();
+    const [first] = answer.routes.features;
+    first.properties.decision.advice = [
+      { kind: "shorter_drive", words: "end the drive at 6.0 m", at_m: 6, ...nearer },
+      { kind: "other_route", words: "take route 2, which is a GO", route: 2 },
+      { kind: "scout_drive", words: "drive 5 m onto the ground at 10 m", at_m: 10, ...nearer },
+    ];
+    await route.fulfill({ json: answer });
+  });
   await p.waitForSelector(".terrain select");
   await p.until(() => document.querySelector(".terrain select").value === "gale");
   await p.until(() => !document.querySelector('[data-do="plan"]').disabled);
   await p.click('[data-do="plan"]');
-  assert.notEqual(await p.verdict(), "go");
-  assert.match(await p.textContent("[data-blocks]"), /A GO needs less than/);
+  const verdict = await p.verdict();
+  assert.notEqual(verdict, "go");
+  const answer = await (await p.request.get(`${service.url}/v1/jobs/${new URLSearchParams(p.url().split("#")[1]).get("job")}/result`)).json();
+  const { decision, outcomes, mean_slip } = answer.routes.features[0].properties;
+  assert.equal(decision.verdict, verdict);
+  assert.equal(await p.locator("[data-reasons] li").count(), decision.reasons.length, "every reason is told once");
+  assert.equal(await p.locator("[data-reasons] .badge").count(), decision.rules.filter((r) => r.verdict !== "go").length);
+  const percent = (v) => `${Number((100 * v).toPrecision(2))} %`;
+  assert.equal(await p.textContent("[data-stop]"), `P(stop) ${percent(outcomes.stop.value)} (${percent(outcomes.stop.low)} to ${percent(outcomes.stop.high)})`);
+  assert.equal(await p.textContent('.compare-table tr:has(th:text-is("Mean slip")) td >> nth=0'), String(Number(mean_slip.toPrecision(3))), "the mean soils' figure, as the terminal has it");
+  assert.deepEqual(await p.locator(".advice li button").allTextContents(), ["Make it the goal and plan again", "Look at it", "Show where"]);
   await p.look("27_why_no_go");
   await p.accessible("why it is no go");
-  await p.click('.advice [data-do="nearer-goal"]');
-  await p.waitForSelector('[data-verdict="go"]');
-  await p.look("28_go_after_one_change");
-  assert.match(await p.textContent(".advice"), /It stays a GO as long as/);
+  await p.click('.advice [data-do="scout"]');
+  await p.until(() => / at 1\d\.\d m$/.test(document.querySelector(".readout").textContent));
+  const [asked] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/plans")), p.click('.advice [data-do="nearer-goal"]')]);
+  assert.deepEqual(asked.postDataJSON().goal, nearer);
+  await p.until((old) => !location.hash.includes(old) && !document.querySelector(".work .job"), answer.format && new URLSearchParams(p.url().split("#")[1]).get("job"));
+  await p.look("28_after_one_change");
   await p.done();
 });
 
@@ -185,7 +208,7 @@ test("an answer is taken along as files and as one page of paper", async () => {
   await p.emulateMedia({ media: "print" });
   await p.setViewportSize({ width: 760, height: 1080 });
   const text = await p.innerText(".paper");
-  for (const words of ["NO-GO", "Marias Pass", "msl-class", "slip at a check", "fingerprint"]) assert.ok(text.includes(words), words);
+  for (const words of ["NO-GO", "Marias Pass", "msl-class", "Slip over a stretch between checks", "fingerprint"]) assert.ok(text.includes(words), words);
   assert.ok((await p.$$eval(".paper img", (images) => images.every((i) => i.naturalWidth > 100 && i.clientWidth > 100))), "every picture is there");
   await p.look("29_paper");
   const pdf = await p.pdf({ preferCSSPageSize: true });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "planner/judge/deciding_draws.h"
 #include "planner/judge/drive_verdict.h"
 #include "planner/judge/verdict_words.h"
 #include "planner/problem/terrain_ground.h"
@@ -51,8 +52,9 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
     if (shorter.empty() || shorter.back().distance_m < kMinDrive_m) return std::nullopt;
     const auto predicted =
         sim::predict_drive(*problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
-                           problem.beliefs, shorter, problem.limits, problem.risk, problem.threads, progress,
-                           problem.conditions);
+                           problem.beliefs, shorter, problem.limits,
+                           risk_of_drive(problem.risk, shorter.back().distance_m, shorter.size()),
+                           problem.threads, progress, problem.conditions);
     if (!predicted) return std::nullopt;
     if (judge_drive(problem, *predicted).verdict != Verdict::kGo) continue;
     const sim::PathStation& end = shorter.back();
@@ -96,7 +98,7 @@ std::optional<Advice> other_route(const std::vector<Route>& routes) {
   Advice advice{.kind = Advice::Kind::kOtherRoute};
   advice.route = go->rank;
   advice.words = fmt::format("take route {}, which is a GO: it costs {:.2f} where this one costs {:.2f}",
-                             go->rank, go->ranked_cost, routes.front().ranked_cost);
+                             go->rank, go->cost, routes.front().cost);
   return advice;
 }
 

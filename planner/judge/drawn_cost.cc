@@ -6,9 +6,10 @@ void cost_draws(const PlanProblem& problem, Route& route) {
   const Ranking& ranking = problem.ranking;
   const std::vector<sim::DrawFigures>& drawn = route.prediction.drawn;
   route.drawn_costs.clear();
-  route.expected_cost = route.cvar_cost = route.ranked_cost = route.cost;
-  for (CostShare& share : route.shares) share.ranked_cost = share.cost;
-  if (drawn.empty()) return;
+  if (drawn.empty()) {
+    route.expected_cost = route.cvar_cost = route.cost;
+    return;
+  }
   std::vector<DriveFigures> figures;
   for (const sim::DrawFigures& draw : drawn) {
     figures.push_back(figures_of(route.prediction, draw));
@@ -16,13 +17,14 @@ void cost_draws(const PlanProblem& problem, Route& route) {
   }
   route.expected_cost = conditional_value_at_risk(route.drawn_costs, 1.0);
   route.cvar_cost = conditional_value_at_risk(route.drawn_costs, ranking.tail);
-  route.ranked_cost = ranking.by == RankBy::kCvar ? route.cvar_cost : route.expected_cost;
+  route.cost = ranking.by == RankBy::kCvar ? route.cvar_cost : route.expected_cost;
   const std::vector<double> weights = tail_weights(route.drawn_costs, ranking.ranked_tail());
   const std::span<const CostTerm> terms = problem.weights.terms();
   for (std::size_t row = 0; row < route.shares.size(); ++row) {
-    double& sum = route.shares[row].ranked_cost = 0.0;
-    for (std::size_t d = 0; d < drawn.size(); ++d)
-      sum += weights[d] * problem.weights[row] * terms[row].value(figures[d]);
+    CostShare& share = route.shares[row];
+    share.value = 0.0;
+    for (std::size_t d = 0; d < drawn.size(); ++d) share.value += weights[d] * terms[row].value(figures[d]);
+    share.cost = share.weight * share.value;
   }
 }
 

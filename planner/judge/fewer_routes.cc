@@ -18,6 +18,11 @@ std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::s
       candidates - kept, candidates, 100.0 * kMaxOverlap, problem.rover->body_width_m);
 }
 
+std::string left_out_as_no_go(std::size_t count, const std::string& reason) {
+  if (count == 1) return fmt::format("1 more route is NO-GO: {}", reason);
+  return fmt::format("{} more routes are NO-GO, the best of them because {}", count, reason);
+}
+
 std::string dropped_for_keep_outs(const PlanProblem& problem, const std::vector<Pose2>& poses) {
   return fmt::format("{} that a planner found {} dropped: the rover's body would {}{} at ({:.2f}, {:.2f})",
                      poses.size() == 1 ? "a route" : fmt::format("{} routes", poses.size()),

@@ -14,6 +14,9 @@ namespace slipway::planner {
 // Only `kept` of so many candidates differ enough.
 std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::size_t kept);
 
+// So many routes are NO-GO, the best of them for this reason.
+std::string left_out_as_no_go(std::size_t count, const std::string& reason);
+
 // Routes that trespass on an area, at these poses, at least one.
 std::string dropped_for_keep_outs(const PlanProblem& problem, const std::vector<Pose2>& poses);
 

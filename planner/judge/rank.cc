@@ -15,6 +15,8 @@
 namespace slipway::planner {
 namespace {
 
+// Costs whose draws do not tell them apart are tied where they differ by no more than this.
+constexpr double kTiedShare = 0.03;
 constexpr double kMin_m = 0.5;  // differences in length below this are not worth words
 
 // "a 14 deg climb", "a 9 deg descent", "a 12 deg side slope", "ground within 2 deg of level".
@@ -114,45 +116,51 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   return words;
 }
 
-// Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
-// it.
-std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
-  if ((route.verdict() == Verdict::kNoGo) != (before.verdict() == Verdict::kNoGo))
-    return fmt::format("behind route {} because a limit is broken", before.rank);
-  std::string terms;
-  for (std::size_t k = 0; k < route.shares.size(); ++k) {
-    const double more = route.shares[k].ranked_cost - before.shares[k].ranked_cost;
-    if (std::abs(more) >= 0.005)
-      terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
-  }
-  const bool told = clearly_apart(route, before, ranking);
-  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}", before.rank,
-                     told ? "" : ", but alike", route.ranked_cost, before.ranked_cost,
-                     route.drawn_costs.empty() ? "" : " " + ranking.in_words(route.prediction.draws),
-                     terms.empty() ? std::string() : " (" + terms + ")");
-}
-
-// Why the first route leads.
-std::string against_the_second(const Route& route, const Route& next, const Ranking& ranking) {
-  if ((route.verdict() == Verdict::kNoGo) != (next.verdict() == Verdict::kNoGo))
-    return "best: in route 2 a limit is broken";
-  const CostDifference less = ranked_difference(next, route, ranking);
-  if (less.draws == 0)
-    return fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.ranked_cost, next.ranked_cost);
-  const bool dearer = less.value < 0.0;
-  const std::string interval = fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws),
-                                           dearer ? -less.high : less.low, dearer ? -less.low : less.high);
-  if (!less.nought_in_99 && !dearer)
-    return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
-  return fmt::format("first, but alike with route 2: costs {:.2f} {} {}{}", std::abs(less.value),
-                     dearer ? "more" : "less", interval,
-                     route.prediction.length_m < next.prediction.length_m ? "; the shorter is first" : "");
-}
-
 // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
 int group_of(const Route& route) {
   if (route.prediction.immobilised) return 2;
   return route.verdict() == Verdict::kNoGo ? 1 : 0;
+}
+
+// Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
+// it.
+std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
+  if (group_of(route) != group_of(before))
+    return fmt::format("behind route {} because a limit is broken", before.rank);
+  std::string terms;
+  for (std::size_t k = 0; k < route.shares.size(); ++k) {
+    const double more = route.shares[k].cost - before.shares[k].cost;
+    if (std::abs(more) >= 0.005)
+      terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
+  }
+  const bool tied = order_of(before, route, ranking) == RankOrder::kTied;
+  return fmt::format(
+      "{} route {}: cost {:.2f} against {:.2f}{}{}", tied ? "tied with" : "behind", before.rank, route.cost,
+      before.cost,
+      route.drawn_costs.empty() ? "" : " " + ranking.in_words(static_cast<int>(route.drawn_costs.size())),
+      terms.empty() ? std::string() : " (" + terms + ")");
+}
+
+// Why the first route leads.
+std::string against_the_second(const Route& route, const Route& next, const Ranking& ranking) {
+  if (group_of(route) != group_of(next)) return "best: in route 2 a limit is broken";
+  const CostDifference less = ranked_difference(next, route, ranking);
+  if (less.draws == 0)
+    return fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.cost, next.cost);
+  const bool dearer = less.value < 0.0;
+  const std::string figures =
+      fmt::format("costs {:.2f} {} than route 2 {}, 90 % interval {:.2f} to {:.2f}", std::abs(less.value),
+                  dearer ? "more" : "less", ranking.in_words(less.draws), dearer ? -less.high : less.low,
+                  dearer ? -less.low : less.high);
+  switch (order_of(route, next, ranking)) {
+    case RankOrder::kTold:
+      return (dearer ? "first: " : "best: ") + figures;
+    case RankOrder::kTied:
+      return "tied with route 2: " + figures;
+    case RankOrder::kUndecided:
+      break;
+  }
+  return "first, which the draws do not decide: " + figures;
 }
 
 }  // namespace
@@ -173,30 +181,29 @@ void judge(const PlanProblem& problem, Route& route) {
     route.shares.push_back(std::move(share));
   }
   cost_draws(problem, route);
-  route.decision = judge_drive(problem, drive, {.dynamic = route.dynamic ? &*route.dynamic : nullptr});
+  judge_outcome(problem, route);
+}
+
+void judge_outcome(const PlanProblem& problem, Route& route) {
+  route.decision =
+      judge_drive(problem, route.prediction, {.dynamic = route.dynamic ? &*route.dynamic : nullptr});
+}
+
+bool is_no_go(const Route& route) {
+  return route.verdict() == Verdict::kNoGo;
 }
 
 bool ranks_before(const Route& a, const Route& b) {
   if (group_of(a) != group_of(b)) return group_of(a) < group_of(b);
   if (a.prediction.immobilised) return a.prediction.length_m > b.prediction.length_m;
-  return a.ranked_cost < b.ranked_cost;
+  return a.cost < b.cost;
 }
 
-std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ranking& ranking) {
+std::vector<std::size_t> ranked_order(const std::vector<Route>& routes) {
   std::vector<std::size_t> order(routes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
-  for (auto place = order.begin(); place != order.end(); ++place) {
-    const Route& leader = routes[*place];
-    auto first = place;
-    for (auto other = place + 1; other != order.end(); ++other)
-      // A verdict is not given up for a shorter way.
-      if (routes[*other].prediction.length_m < routes[*first].prediction.length_m &&
-          routes[*other].verdict() <= leader.verdict() && !clearly_apart(leader, routes[*other], ranking))
-        first = other;
-    std::rotate(place, first, first + 1);
-  }
   return order;
 }
 
@@ -229,9 +236,12 @@ CostDifference ranked_difference(const Route& a, const Route& b, const Ranking& 
   return difference_of(a.drawn_costs, b.drawn_costs, ranking.ranked_tail());
 }
 
-bool clearly_apart(const Route& a, const Route& b, const Ranking& ranking) {
-  if (group_of(a) != group_of(b) || a.prediction.immobilised || a.drawn_costs.empty()) return true;
-  return !ranked_difference(a, b, ranking).nought_in_99;
+RankOrder order_of(const Route& a, const Route& b, const Ranking& ranking) {
+  if (group_of(a) != group_of(b) || a.prediction.immobilised) return RankOrder::kTold;
+  const CostDifference difference = ranked_difference(a, b, ranking);
+  if (difference.draws == 0 || difference.decided()) return RankOrder::kTold;
+  const bool close = std::abs(a.cost - b.cost) <= kTiedShare * std::min(a.cost, b.cost);
+  return close ? RankOrder::kTied : RankOrder::kUndecided;
 }
 
 void explain(std::vector<Route>& routes, const Ranking& ranking) {

@@ -57,9 +57,8 @@ struct PlanProblem {
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
   std::uint64_t seed = 1;
   sim::RiskOptions risk;
-  // The candidates have risk.draws. Where this is more, those whose order or verdict hangs on more draws get
-  // as many.
-  int deciding_draws = 0;
+  // How many of risk.draws rank the candidates at first, where these are many; 0: all of them.
+  int ranking_draws = 0;
   std::size_t threads = 0;  // 0: as many as the machine has
 
   // Start, waypoints in their order, goal.

@@ -89,11 +89,9 @@ CostDifference difference_of(const std::vector<WeightedCost>& a, const std::vect
   }
   const double effective = 1.0 / squares;
   const double few = effective > 1.0 ? effective / (effective - 1.0) : 1.0;
-  constexpr double kReach99 = 2.5758293035489004;
   const double error = std::sqrt(few * spread), freedom = tail * effective - 1.0;
   const double reach = student_reach(kReach90, freedom) * error;
-  return {mean, mean - reach, mean + reach, static_cast<int>(common),
-          std::abs(mean) <= student_reach(kReach99, freedom) * error};
+  return {mean, mean - reach, mean + reach, static_cast<int>(common)};
 }
 
 }  // namespace slipway::planner

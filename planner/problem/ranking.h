@@ -39,8 +39,7 @@ double conditional_value_at_risk(const std::vector<WeightedCost>& costs, double 
 // The difference of two routes' ranked costs with its 90 % interval.
 struct CostDifference {
   double value = 0.0, low = 0.0, high = 0.0;
-  int draws = 0;             // that both routes have
-  bool nought_in_99 = true;  // nought lies inside the interval of 99 %
+  int draws = 0;  // that both routes have
 
   // Nought lies outside the interval.
   bool decided() const { return low > 0.0 || high < 0.0; }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/problem/drive_step.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/ranking.h"
 #include "planner/problem/verdict.h"
@@ -14,11 +15,10 @@ namespace slipway::planner {
 // One term of a route's cost.
 struct CostShare {
   std::string name;    // of the cost catalogue
-  double value = 0.0;  // in the term's unit
+  double value = 0.0;  // in the term's unit, in the mean of the draws by which the route is ranked
   std::string unit;
   double weight = 0.0;
-  double cost = 0.0;         // weight * value
-  double ranked_cost = 0.0;  // the same in the draws by which the route is ranked
+  double cost = 0.0;  // weight * value
 };
 
 struct Route {
@@ -27,12 +27,12 @@ struct Route {
   std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
   sim::DrivePrediction prediction;
   std::optional<DynamicVerification> dynamic;  // where it was verified
-  double cost = 0.0;              // on the mean soils, with the draws' stops, embeddings and broken limits
-  std::vector<CostShare> shares;  // add up to cost
-  std::vector<WeightedCost> drawn_costs;  // by the number of the draw
-  double expected_cost = 0.0;             // the mean of the draws' costs
-  double cvar_cost = 0.0;                 // the mean of the dearest of them, see Ranking
-  double ranked_cost = 0.0;               // the one of the two by which the route is ranked
+  DriveSteps commands;                         // how it is driven; the prediction is of these
+  std::vector<WeightedCost> drawn_costs;       // by the number of the draw
+  double expected_cost = 0.0;                  // the mean of the draws' costs
+  double cvar_cost = 0.0;                      // the mean of the dearest of them, see Ranking
+  double cost = 0.0;                           // the one of the two by which the route is ranked
+  std::vector<CostShare> shares;               // add up to cost
   DriveVerdict decision;
   bool pareto = false;               // no other route of the plan dominates it, see dominates()
   std::vector<std::string> reasons;  // why it is judged so and ranked so, in words and numbers

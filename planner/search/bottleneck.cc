@@ -223,6 +223,35 @@ std::optional<std::string> bottleneck(const PlanProblem& problem, const MotionCo
                       : fmt::format("; even with {} the mean soils hold the rover on no way", relaxed.words));
 }
 
+std::optional<std::string> zone_on_way(const PlanProblem& problem, const TraverseMap& map,
+                                       const std::vector<std::size_t>& way) {
+  if (way.size() < 2) return std::nullopt;
+  const Eigen::Vector2d before = map.centre_m(way.front());
+  const Eigen::Vector2d next = map.centre_m(way[1]) - before;
+  Pose2 at{before.x(), before.y(), std::atan2(next.y(), next.x())};
+  double driven = 0.0;
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    const Eigen::Vector2d place = map.centre_m(way[k]);
+    const Motion motion = straight(at, place.x(), place.y());
+    for (const auto& [key, zones] :
+         {std::pair("keep_out", &problem.keep_out), std::pair("keep_in", &problem.keep_in)}) {
+      const bool is_out = zones == &problem.keep_out;
+      for (std::size_t z = 0; z < zones->size(); ++z) {
+        const std::span<const Polygon> one = std::span(*zones).subspan(z, 1), none;
+        const KeepOut zone(is_out ? one : none, *problem.rover, is_out ? none : one);
+        if (const auto hit = zone.first_hit(motion))
+          return fmt::format(
+              "{} {} (/{}/{}) closes the way at ({:.1f}, {:.1f}), {:.1f} m from its beginning: the rover's "
+              "body does not pass there",
+              is_out ? "keep-out" : "keep-in", z + 1, key, z, hit->x_m, hit->y_m, driven);
+      }
+    }
+    driven += motion.length_m;
+    at = motion.to;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> first_closed(const PlanProblem& problem, const MotionCost& cost,
                                         const std::vector<Motion>& motions) {
   const TraverseMap& map = cost.map();

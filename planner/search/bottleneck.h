@@ -16,6 +16,11 @@ namespace slipway::planner {
 std::optional<std::string> bottleneck(const PlanProblem& problem, const MotionCost& cost,
                                       const Waypoint& from, const Waypoint& to);
 
+// Which zone of the problem keeps the rover's body off a way over the grid's cells, and where: a sentence
+// with the zone's place in the request and the distance from the way's beginning. Nothing where none does.
+std::optional<std::string> zone_on_way(const PlanProblem& problem, const TraverseMap& map,
+                                       const std::vector<std::size_t>& way);
+
 // The first place along the motions that the search does not allow, and why: a sentence. Nothing where all is
 // allowed.
 std::optional<std::string> first_closed(const PlanProblem& problem, const MotionCost& cost,

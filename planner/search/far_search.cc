@@ -95,6 +95,11 @@ class FarProposer {
     const MotionCost asked(problem_, nowhere_, tables_, problem_.weights, problem_.ranking.ranked_tail());
     work_ = static_cast<int>(guides.size()) + kMaxRounds;
     search(guides, true);
+    if (problem_.planners.empty() && !found_.empty()) {
+      std::vector<Motion> line = straight_way(problem_);
+      set_down_as_it_leaves(problem_.start, line);
+      found_.push_back({std::move(line), std::string(kStraightPlanner), std::string(kStraightPlanner)});
+    }
     judge(asked);
     for (int round = 1; round <= kMaxRounds && !found_.empty() && !enough() && !progress_.cancelled();
          ++round) {
@@ -109,10 +114,7 @@ class FarProposer {
 
  private:
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
-  bool enough() const {
-    const Proposal& p = out_.proposal;
-    return select_routes(p.differences, p.by_cost(), wanted()).size() >= wanted();
-  }
+  bool enough() const { return out_.proposal.different(wanted()).size() >= wanted(); }
 
   // The nodes of the places; false where no way joins two of them.
   bool find_nodes() {
@@ -271,7 +273,7 @@ class FarProposer {
     const double block = kBlockCells * std::max(g.cell_x_m, g.cell_y_m);
     const double reach = std::max(kMinBand_blocks * block, kBandOfLeg * longest);
     const Proposal& p = out_.proposal;
-    for (const std::size_t chosen : select_routes(p.differences, p.by_cost(), wanted())) {
+    for (const std::size_t chosen : p.different(wanted())) {
       std::vector<Eigen::Vector2d> line = centreline(p.candidates[chosen].motions, 0.5 * block);
       line.erase(std::remove_if(line.begin(), line.end(),
                                 [&](const Eigen::Vector2d& at) { return is_near_place(places_, at, reach); }),
@@ -319,6 +321,8 @@ class FarProposer {
         tell_found(progress_, found.motions, cost);
       p.differences.add(centreline(found.motions, kLineSpacing_m));
       p.candidates.push_back({found.motions, found.planner, found.profile, cost});
+    } else if (found.planner == kStraightPlanner) {
+      return;  // nobody found it: it is there whatever lies on it
     } else if (const auto pose = first_hit(keep_out_, found.motions)) {
       p.in_keep_out.push_back(*pose);
     } else if (const auto closed = first_closed(problem_, asked, found.motions)) {

@@ -54,6 +54,23 @@ bool joins(const std::vector<Pose2>& poses, const LegSearch& leg) {
          std::hypot(poses.back().x_m - leg.to_x_m, poses.back().y_m - leg.to_y_m) < kSameEnd_m;
 }
 
+std::vector<Motion> straight_way(const PlanProblem& problem) {
+  const std::vector<Waypoint> places = problem.places();
+  std::vector<Motion> motions;
+  Pose2 at{places.front().x_m, places.front().y_m, wrapped_rad(places.front().yaw_rad.value_or(0.0))};
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    Motion motion = straight(at, places[i].x_m, places[i].y_m);
+    if (places[i].yaw_rad) {
+      const double arrival = wrapped_rad(*places[i].yaw_rad);
+      motion.last_turn_rad = wrapped_rad(arrival - motion.to.yaw_rad);
+      motion.to.yaw_rad = arrival;
+    }
+    at = motion.to;
+    motions.push_back(motion);
+  }
+  return motions;
+}
+
 void set_down_as_it_leaves(const Waypoint& start, std::vector<Motion>& motions) {
   if (start.yaw_rad) return;
   Motion& first = motions.front();

@@ -15,6 +15,9 @@ LegSearch leg_between(const MotionCost& cost, const PoseSampler& sampler, const 
 // Poses that begin and end where the leg does: others would make a route with a leap in it.
 bool joins(const std::vector<Pose2>& poses, const LegSearch& leg);
 
+// Straight from place to place of the problem, in the headings that it asks for at them.
+std::vector<Motion> straight_way(const PlanProblem& problem);
+
 // Where nothing holds the start's heading, the rover is set down in the direction it leaves.
 void set_down_as_it_leaves(const Waypoint& start, std::vector<Motion>& motions);
 

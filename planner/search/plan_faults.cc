@@ -112,6 +112,26 @@ void check_standing(const PlanProblem& problem, const KeepOut& keep_out, const s
 
 }  // namespace
 
+std::vector<Fault> faults_of_legs(const Waypoint& start, const std::vector<Waypoint>& waypoints,
+                                  const Waypoint& goal) {
+  constexpr double kSamePlace_m = 0.1;
+  std::vector<std::pair<std::string, Waypoint>> places{{"/start", start}};
+  for (std::size_t i = 0; i < waypoints.size(); ++i)
+    places.emplace_back(fmt::format("/waypoints/{}", i), waypoints[i]);
+  places.emplace_back("/goal", goal);
+  std::vector<Fault> faults;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const auto& [before, from] = places[i - 1];
+    const auto& [pointer, to] = places[i];
+    if (std::hypot(to.x_m - from.x_m, to.y_m - from.y_m) >= kSamePlace_m) continue;
+    faults.push_back(
+        {pointer, fmt::format("{} at ({:.2f}, {:.2f}) is where {} is, at ({:.2f}, {:.2f}): there "
+                              "is no way to plan between them",
+                              pointer, to.x_m, to.y_m, before, from.x_m, from.y_m)});
+  }
+  return faults;
+}
+
 std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground,
                                      const Waypoint& place, double reach_m, const std::string& pointer,
                                      std::vector<Fault>& faults) {
@@ -154,6 +174,8 @@ std::optional<Error> faults_of(const PlanProblem& problem, std::span<const Plann
   check(problem.goal, "/goal");
   for (std::size_t i = 0; i < problem.waypoints.size(); ++i)
     check(problem.waypoints[i], fmt::format("/waypoints/{}", i));
+  for (Fault& fault : faults_of_legs(problem.start, problem.waypoints, problem.goal))
+    faults.push_back(std::move(fault));
   if (faults.empty()) return std::nullopt;
   ErrorCode code = ErrorCode::kInvalidRequest;
   for (const ErrorCode candidate : {ErrorCode::kNoData, ErrorCode::kOffMap})

@@ -45,12 +45,24 @@ struct NamedPlanner {
   std::unique_ptr<LegPlanner> planner;
 };
 
-// One route in the making.
+// A way in the making under one cost, leg by leg.
+struct Way {
+  Pose2 at;
+  std::vector<Motion> motions;
+
+  void add(const std::vector<Motion>& leg) {
+    motions.insert(motions.end(), leg.begin(), leg.end());
+    at = motions.back().to;
+  }
+};
+
+// One route in the making: as it is smoothed under its guide's cost, and of guides with another objective
+// than the request's also under the request's own.
 struct Draft {
   std::size_t guide = 0;
   const NamedPlanner* by = nullptr;
-  Pose2 at;
-  std::vector<Motion> motions;
+  Way guided;
+  std::optional<Way> asked;
   bool found = true;
 };
 
@@ -64,11 +76,16 @@ class Proposer {
         progress_(progress),
         places_(problem.places()),
         asked_cost_(problem, map, tables, problem.weights, problem.ranking.ranked_tail()),
+        smoothing_cost_(asked_cost_),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
+    smoothing_cost_.penalise(off_rises());
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
     if (!planners_.empty()) return;
+    takes_default_set_ = true;
     for (const PlannerRow& row : planners)
       if (row.in_default_set) add_planner(row);
+    if (const PlannerRow* const grid = planner_named(kGridPlanner, planners); grid && !grid->in_default_set)
+      add_planner(*grid);
   }
 
   Proposal run() {
@@ -81,6 +98,8 @@ class Proposer {
     }
     for (Guide& guide : guides) guide.cost.penalise(off_rises());
     search(guides, 0);
+    if (takes_default_set_ && !progress_.cancelled())
+      keep(kStraightPlanner, kStraightPlanner, straight_way(problem_));
     if (proposal_.candidates.empty()) return std::move(proposal_);
     for (int round = 1; round <= kMaxRounds && !enough() && !progress_.cancelled(); ++round) {
       guides.clear();
@@ -94,9 +113,7 @@ class Proposer {
  private:
   void add_planner(const PlannerRow& row) { planners_.push_back({std::string(row.name), row.make()}); }
 
-  bool enough() const {
-    return select_routes(proposal_.differences, proposal_.by_cost(), wanted()).size() >= wanted();
-  }
+  bool enough() const { return proposal_.different(wanted()).size() >= wanted(); }
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
 
   // All guides with all planners, leg by leg.
@@ -104,7 +121,10 @@ class Proposer {
     std::vector<Draft> drafts;
     for (std::size_t g = 0; g < guides.size(); ++g)
       for (const NamedPlanner& planner : planners_)
-        drafts.push_back({.guide = g, .by = &planner, .at = {}, .motions = {}});
+        drafts.push_back({.guide = g,
+                          .by = &planner,
+                          .guided = {},
+                          .asked = round == 0 && g > 0 ? std::optional<Way>(Way{}) : std::nullopt});
     for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
       if (progress_.cancelled()) return;
@@ -119,8 +139,12 @@ class Proposer {
       });
     }
     if (progress_.cancelled()) return;
-    for (Draft& draft : drafts)
-      if (draft.found) keep(guides[draft.guide].profile, draft);
+    for (Draft& draft : drafts) {
+      if (!draft.found) continue;
+      const std::string& profile = guides[draft.guide].profile;
+      keep(draft.by->name, profile, std::move(draft.guided.motions));
+      if (draft.asked) keep(draft.by->name, profile, std::move(draft.asked->motions));
+    }
   }
 
   void look_ahead(Guide& guide, std::size_t leg) const {
@@ -137,36 +161,44 @@ class Proposer {
     if (!std::isfinite(guide.sampler->optimum())) return false;
     if (leg == 0) {
       const auto cell = static_cast<std::size_t>(map_.index_at(from.x_m, from.y_m));
-      draft.at = {from.x_m, from.y_m, wrapped_rad(from.yaw_rad.value_or(guide.sampler->flow_rad(cell)))};
+      draft.guided.at = {from.x_m, from.y_m,
+                         wrapped_rad(from.yaw_rad.value_or(guide.sampler->flow_rad(cell)))};
+      if (draft.asked) draft.asked->at = draft.guided.at;
     }
     LegSearch search = leg_between(
-        guide.cost, *guide.sampler, draft.at, from, to,
+        guide.cost, *guide.sampler, draft.guided.at, from, to,
         random_key(random_key(random_key(problem_.seed, leg), static_cast<std::uint64_t>(round)), number));
     search.cancelled = [this] { return progress_.cancelled(); };
-    const std::vector<Pose2> poses = draft.by->planner->search(search);
+    std::vector<Pose2> poses = draft.by->planner->search(search);
     if (!joins(poses, search)) return false;
-    const std::vector<Motion> motions = smooth_leg(guide.cost, poses, to.yaw_rad.has_value());
-    draft.motions.insert(draft.motions.end(), motions.begin(), motions.end());
-    draft.at = draft.motions.back().to;
+    draft.guided.add(smooth_leg(guide.cost, poses, to.yaw_rad.has_value()));
+    if (!draft.asked) return true;
+    poses.front() = draft.asked->at;
+    draft.asked->add(smooth_leg(smoothing_cost_, poses, to.yaw_rad.has_value()));
     return true;
   }
 
-  void keep(const std::string& profile, Draft& draft) {
-    set_down_as_it_leaves(problem_.start, draft.motions);
-    const double cost = fine_cost(asked_cost_, draft.motions);
+  void keep(std::string_view planner, std::string_view profile, std::vector<Motion> motions) {
+    set_down_as_it_leaves(problem_.start, motions);
+    const double cost = fine_cost(asked_cost_, motions);
     if (!std::isfinite(cost)) {
-      if (const auto pose = first_hit(map_.keep_out(), draft.motions)) {
-        proposal_.in_keep_out.push_back(*pose);
-      } else if (const auto closed = first_closed(problem_, asked_cost_, draft.motions)) {
-        proposal_.closed.push_back(fmt::format("{} found is closed at {}", draft.by->name, *closed));
-      }
+      // Nobody found the straight line, which is there whatever lies on it.
+      if (planner != kStraightPlanner) note_closed(planner, motions);
       return;
     }
-    proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
+    proposal_.differences.add(centreline(motions, kLineSpacing_m));
     if (std::none_of(proposal_.candidates.begin(), proposal_.candidates.end(),
                      [&](const Candidate& other) { return other.cost <= cost; }))
-      tell_found(progress_, draft.motions, cost);
-    proposal_.candidates.push_back({std::move(draft.motions), draft.by->name, profile, cost});
+      tell_found(progress_, motions, cost);
+    proposal_.candidates.push_back({std::move(motions), std::string(planner), std::string(profile), cost});
+  }
+
+  void note_closed(std::string_view planner, const std::vector<Motion>& motions) {
+    if (const auto pose = first_hit(map_.keep_out(), motions)) {
+      proposal_.in_keep_out.push_back(*pose);
+    } else if (const auto closed = first_closed(problem_, asked_cost_, motions)) {
+      proposal_.closed.push_back(fmt::format("{} found is closed at {}", planner, *closed));
+    }
   }
 
   std::vector<float> off_rises() const {
@@ -182,7 +214,7 @@ class Proposer {
     const dem::GridGeometry& g = map_.geometry();
     const int columns = static_cast<int>(std::ceil(reach / g.cell_x_m));
     const int rows = static_cast<int>(std::ceil(reach / g.cell_y_m));
-    for (const std::size_t chosen : select_routes(proposal_.differences, proposal_.by_cost(), wanted())) {
+    for (const std::size_t chosen : proposal_.different(wanted())) {
       for (const Eigen::Vector2d& place : centreline(proposal_.candidates[chosen].motions, map_.cell_m())) {
         for (int dr = -rows; dr <= rows; ++dr) {
           for (int dc = -columns; dc <= columns; ++dc) {
@@ -204,7 +236,9 @@ class Proposer {
   Progress& progress_;
   std::vector<Waypoint> places_;
   MotionCost asked_cost_;
+  MotionCost smoothing_cost_;  // the same, dearer beside rises
   std::vector<NamedPlanner> planners_;
+  bool takes_default_set_ = false;
   Proposal proposal_;
 };
 
@@ -216,6 +250,13 @@ std::vector<std::size_t> Proposal::by_cost() const {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return candidates[a].cost < candidates[b].cost; });
   return order;
+}
+
+std::vector<std::size_t> Proposal::different(std::size_t wanted) const {
+  const std::vector<std::size_t> order = by_cost();
+  std::vector<double> costs;
+  for (const std::size_t i : order) costs.push_back(candidates[i].cost);
+  return select_routes(differences, order, as_good_as_best(costs), wanted);
 }
 
 Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,

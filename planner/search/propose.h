@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -13,6 +14,10 @@
 #include "planner/search/select_routes.h"
 
 namespace slipway::planner {
+
+// Candidates that every plan has by its default set of planners, whatever that is: the straight way from
+// place to place, and the grid's cheapest one.
+constexpr std::string_view kStraightPlanner = "straight", kGridPlanner = "grid";
 
 // A route that a planner found, before it is simulated.
 struct Candidate {
@@ -32,14 +37,17 @@ struct Proposal {
   std::vector<std::string> closed = {};
   // The cells of the grid's cheapest way of each leg, under the request's weights.
   std::vector<std::vector<std::size_t>> grid_ways = {};
-  // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
+  // The cheapest first.
   std::vector<std::size_t> by_cost() const;
+  // Of these the ones that differ, see select_routes().
+  std::vector<std::size_t> different(std::size_t wanted) const;
 };
 
-// Searches each profile with each planner that the problem names (none: the default set of `planners`), then
-// in rounds with the bands around the routes so far made dear, until `problem.routes` routes differ or the
-// rounds are used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where
-// there is no way (then grid_optimum is infinite) and where it was cancelled.
+// Searches each profile with each planner that the problem names (none: the default set of `planners`, the
+// grid and the straight line), smoothed under the profile and under what the request asks for, then in rounds
+// with the bands around the routes so far made dear, until `problem.routes` routes differ or the rounds are
+// used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where there is no way
+// (then grid_optimum is infinite) and where it was cancelled.
 Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
                         const TraverseMap& map, const GroundTables& tables, Progress& progress);
 

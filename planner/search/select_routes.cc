@@ -9,16 +9,17 @@ namespace slipway::planner {
 namespace {
 
 // Extends `chosen` with candidates from order[from] on until it has `wanted`; the first that works is the
-// best one.
+// best one. The first of all is one of the first `leaders`.
 bool extend(const Differences& differences, const std::vector<std::size_t>& order, std::size_t from,
-            std::size_t wanted, std::vector<std::size_t>& chosen) {
+            std::size_t leaders, std::size_t wanted, std::vector<std::size_t>& chosen) {
   if (chosen.size() == wanted) return true;
-  for (std::size_t i = from; i + (wanted - chosen.size()) <= order.size(); ++i) {
+  const std::size_t end = chosen.empty() ? std::min(leaders, order.size()) : order.size();
+  for (std::size_t i = from; i < end && i + (wanted - chosen.size()) <= order.size(); ++i) {
     const bool differs = std::all_of(chosen.begin(), chosen.end(),
                                      [&](std::size_t other) { return differences.differ(order[i], other); });
     if (!differs) continue;
     chosen.push_back(order[i]);
-    if (extend(differences, order, i + 1, wanted, chosen)) return true;
+    if (extend(differences, order, i + 1, leaders, wanted, chosen)) return true;
     chosen.pop_back();
   }
   return false;
@@ -43,11 +44,19 @@ bool Differences::differ(std::size_t a, std::size_t b) const {
   return shared_[a][b] <= kMaxOverlap;
 }
 
+std::size_t as_good_as_best(const std::vector<double>& rising_costs) {
+  std::size_t count = 0;
+  while (count < rising_costs.size() &&
+         (count == 0 || rising_costs[count] <= (1.0 + kAsGoodAsBest) * rising_costs.front()))
+    ++count;
+  return count;
+}
+
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
-                                       std::size_t wanted) {
+                                       std::size_t leaders, std::size_t wanted) {
   for (std::size_t size = std::min(wanted, order.size()); size > 0; --size) {
     std::vector<std::size_t> chosen;
-    if (extend(differences, order, 0, size, chosen)) return chosen;
+    if (extend(differences, order, 0, leaders, size, chosen)) return chosen;
   }
   return {};
 }

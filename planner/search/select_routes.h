@@ -28,10 +28,17 @@ class Differences {
   std::vector<std::vector<double>> shared_;
 };
 
-// Of candidates in `order` (best first) a set that differs in pairs: as many as can be had up to `wanted`,
-// and among the sets of that size the one whose best is best, then whose second is best, and so on. Best
-// first.
+// A route that is dearer than the cheapest by no more than this share may stand first in its place, where
+// more routes differ from it.
+constexpr double kAsGoodAsBest = 0.01;
+
+// How many costs, which rise, are as good as the first: at least one.
+std::size_t as_good_as_best(const std::vector<double>& rising_costs);
+
+// Of candidates in `order` (best first) a set that differs in pairs and has one of the first `leaders` in it:
+// as many as can be had up to `wanted`, and among the sets of that size the one whose best is best, then
+// whose second is best, and so on. Best first.
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
-                                       std::size_t wanted);
+                                       std::size_t leaders, std::size_t wanted);
 
 }  // namespace slipway::planner

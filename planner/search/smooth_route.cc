@@ -15,10 +15,16 @@ using Corners = std::vector<Eigen::Vector2d>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxSide_m = 8.0;
 constexpr double kSameCorner_m = 1e-3;
+constexpr double kSameHeading_rad = 1e-6;
 constexpr int kSweeps = 24;
 constexpr std::array<double, 6> kMoves_m{2.0, -2.0, 1.0, -1.0, 0.4, -0.4};
 constexpr std::array<double, 10> kRadii_m{400.0, 150.0, 80.0, 40.0, 25.0, 15.0, 10.0, 6.0, 4.0, 2.5};
-constexpr double kGain = 1e-9;  // cheaper by less is not cheaper
+constexpr double kLeastArc_m = 0.2;  // that a rover is commanded
+constexpr double kGain = 1e-9;       // cheaper by less is not cheaper
+// A jog to one side and back over less than this is left out where what it gains is a smaller share of the
+// cost about it: the search's cost of a turn in place knows nothing of a drive's draws.
+constexpr double kJog_m = 1.0;
+constexpr double kJogGain = 0.03;
 
 double bearing_rad(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::atan2(b.y() - a.y(), b.x() - a.x());
@@ -52,7 +58,54 @@ class Polyline {
     }
   }
 
+  // Draws the two corners of a short jog together to one.
+  void leave_out_jogs() {
+    for (std::size_t i = 1; i + 2 < corners_.size();) {
+      if (is_jog(i) && leaves_jog(i))
+        i = std::max<std::size_t>(1, i - 1);
+      else
+        ++i;
+    }
+  }
+
  private:
+  // Corners i and i + 1 turn to opposite sides, and it is not far from one to the other.
+  bool is_jog(std::size_t i) const {
+    if ((corners_[i + 1] - corners_[i]).norm() >= kJog_m) return false;
+    const double between = bearing_rad(corners_[i], corners_[i + 1]);
+    const double first = wrapped_rad(between - bearing_rad(corners_[i - 1], corners_[i]));
+    const double second = wrapped_rad(bearing_rad(corners_[i + 1], corners_[i + 2]) - between);
+    return first * second < 0.0;
+  }
+
+  // From the corner before i over the given places to the corner after `last`, with the bends at both ends.
+  double stretch(std::size_t i, std::size_t last, const Corners& places) const {
+    Corners line{corners_[i - 1]};
+    line.insert(line.end(), places.begin(), places.end());
+    line.push_back(corners_[last + 1]);
+    double heading = heading_before(i - 1), sum = 0.0;
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const double leaving = bearing_rad(line[k - 1], line[k]);
+      sum += bend(heading, leaving) + side(line[k - 1], line[k]);
+      heading = leaving;
+    }
+    if (last + 2 < corners_.size()) sum += bend(heading, bearing_rad(corners_[last + 1], corners_[last + 2]));
+    return sum;
+  }
+
+  bool leaves_jog(std::size_t i) {
+    const double most = (1.0 + kJogGain) * stretch(i, i + 1, {corners_[i], corners_[i + 1]});
+    const Eigen::Vector2d middle = 0.5 * (corners_[i] + corners_[i + 1]);
+    const std::array<Corners, 4> others{{{}, {middle}, {corners_[i]}, {corners_[i + 1]}}};
+    for (const Corners& places : others) {
+      if (!(stretch(i, i + 1, places) <= most)) continue;
+      const auto at = corners_.begin() + static_cast<std::ptrdiff_t>(i);
+      corners_.insert(corners_.erase(at, at + 2), places.begin(), places.end());
+      return true;
+    }
+    return false;
+  }
+
   double side(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
     const double bearing = bearing_rad(a, b);
     return cost_.of(straight({a.x(), a.y(), bearing}, b.x(), b.y()));
@@ -129,7 +182,9 @@ std::vector<Motion> round_corners(const MotionCost& cost, std::vector<Motion> mo
     std::vector<Motion> best;
     for (const double radius : kRadii_m) {
       const double cut = radius * std::tan(0.5 * turn);
-      if (radius < limits.min_turn_radius_m || (more_corners && cut > 0.5 * motions[i].length_m)) continue;
+      if (radius < limits.min_turn_radius_m || radius * turn < kLeastArc_m ||
+          (more_corners && cut > 0.5 * motions[i].length_m))
+        continue;
       std::vector<Motion> tried = round_corner(in, motions[i], radius);
       double sum = 0.0;
       for (const Motion& motion : tried) sum += cost.of(motion, fine);
@@ -182,6 +237,16 @@ std::vector<Pose2> shortcut(const MotionCost& cost, const std::vector<Pose2>& po
     i = next;
   }
   return kept;
+}
+
+// How many turns in place there are.
+std::size_t turns_of(const std::vector<Motion>& motions) {
+  std::size_t turns = 0;
+  for (const Motion& motion : motions) {
+    turns += std::abs(motion.first_turn_rad) > kSameHeading_rad ? 1U : 0U;
+    turns += std::abs(motion.last_turn_rad) > kSameHeading_rad ? 1U : 0U;
+  }
+  return turns;
 }
 
 // A polyline close to the motions: their ends, and places on the way along arcs.
@@ -247,11 +312,13 @@ std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>&
   line.leave_out();
   sweep();
   line.leave_out();
+  line.leave_out_jogs();
   std::vector<Motion> motions = round_corners(cost, straights(poses.front(), line.corners()));
   if (keep_last_heading) arrive(cost, motions, poses.back().yaw_rad);
   const double smooth = fine_cost(cost, motions);
   const double found = fine_cost(cost, arcs);
-  if (smooth < kInfinity && smooth <= found) return motions;
+  const bool calmer = turns_of(motions) < turns_of(arcs);
+  if (smooth < kInfinity && smooth <= (calmer ? 1.0 + kJogGain : 1.0) * found) return motions;
   return arcs;
 }
 

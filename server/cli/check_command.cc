@@ -1,11 +1,13 @@
 #include "server/cli/check_command.h"
 
+#include <utility>
 #include <vector>
 
 #include "api/json/writer.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/drive_answer.h"
 #include "server/cli/drive_request.h"
+#include "server/cli/inquiry/commands_file.h"
 #include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
@@ -51,10 +53,25 @@ Result<std::string> check_request(const CheckOptions& options) {
   return w.take();
 }
 
+// Of the commands of a file: what is given on the command line stands over what it says.
+int check_file(CheckOptions options, const Pictures& pictures) {
+  const auto bytes = read_request(options.commands_file);
+  if (!bytes) return refuse_unreadable(bytes.error());
+  const auto file = CommandsFile::read(*bytes, options.commands_file);
+  if (!file) return refuse(file.error());
+  if (!options.names_terrain && file->names("terrain")) options.drive.terrain.clear();
+  if (!options.names_rover && file->names("rover")) options.drive.rover.clear();
+  const auto given = check_request(options);
+  if (!given) return refuse(given.error());
+  return ask_and_print(options.ask, pictures, file->request_with(*given), &Inquiry::check, &check_table,
+                       &check_status, [&](Error error) { return file->placed(std::move(error), *given); });
+}
+
 }  // namespace
 
 int check(const CheckOptions& given) {
-  const auto rover = models_rover(given.ask, given.drive.rover, !given.request.empty());
+  const auto rover =
+      models_rover(given.ask, given.drive.rover, !given.request.empty() || !given.commands_file.empty());
   if (!rover) return refuse(rover.error());
   CheckOptions options = given;
   options.drive.rover = *rover;
@@ -67,6 +84,7 @@ int check(const CheckOptions& given) {
   }
   Pictures pictures = pictures_of(options.drive);
   pictures.report = options.report;
+  if (!options.commands_file.empty()) return check_file(std::move(options), pictures);
   return ask_and_print(options.ask, pictures,
                        options.request.empty() ? check_request(options) : read_request(options.request),
                        &Inquiry::check, &check_table, &check_status);

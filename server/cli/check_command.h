@@ -19,7 +19,9 @@ struct CheckOptions {
   DriveOptions drive;
   std::vector<PlaceOption> path;
   std::optional<PlaceOption> start;
-  std::vector<std::string> commands;  // "drive=5", "arc=4,6", "turn=-30"
+  std::vector<std::string> commands;                // "drive=5", "arc=4,6", "turn=-30"
+  std::string commands_file;                        // as slipway plan writes it; empty: none
+  bool names_terrain = false, names_rover = false;  // on the command line
   std::string rules;
   bool backwards = false;
   std::optional<double> crab_deg;

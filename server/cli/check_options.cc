@@ -10,6 +10,7 @@ constexpr const char* kCheckExample =
     "Example: may this drive be commanded?\n"
     "  slipway check --path 8142579.7,-276648.7 8142578,-276680 --rules every_5_m\n"
     "  slipway check --path 8142579.7,-276648.7 8142578,-276680 --report check.html --csv stations.csv\n"
+    "  slipway check --commands route.json\n"
     "  slipway check --start 8142579.7,-276648.7,-90 --command drive=10 turn=30 arc=6,8\n"
     "Exit status: 0 GO, 3 NO-GO, 4 UNKNOWN; 1 no answer, 2 a request that can't be used, with every fault.";
 
@@ -35,17 +36,30 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
   add_drive(*command, options->drive);
   add_places(*command, "--path", options->path, "corners of the path, each x,y or x,y,yaw_deg");
   add_place(*command, "--start", options->start, "where a command sequence begins: x,y,yaw_deg");
-  command->add_option("--command", options->commands,
-                      "the sequence: drive=METRES, turn=DEGREES, arc=METRES,RADIUS (left positive)");
+  CLI::Option* const file = command->add_option(
+      "--commands", options->commands_file,
+      "file with a command sequence, as slipway plan --commands writes it (CSV or JSON), - for standard "
+      "input; options beside it stand over what it says");
+  command
+      ->add_option("--command", options->commands,
+                   "the sequence itself: drive=METRES, turn=DEGREES, arc=METRES,RADIUS (left positive)")
+      ->excludes(file);
+  file->excludes(command->get_option("--path"));
   command->add_option("--rules", options->rules, "a set of rules of the data folder, by name");
   command->add_flag("--backwards", options->backwards, "drive backwards");
   command->add_option("--crab-deg", options->crab_deg,
                       "direction of travel from the body's axis, positive to the left");
   command->add_option("--report", options->report, "write one page for a meeting (HTML) to this file");
-  command->add_option("--request", options->request,
-                      "file with a whole request, - for standard input; other options are not used");
+  command
+      ->add_option("--request", options->request,
+                   "file with a whole request, - for standard input; other options are not used")
+      ->excludes(file);
   command->footer(kCheckExample);
-  command->callback([options, &run] { run = [options] { return check(*options); }; });
+  command->callback([options, command, &run] {
+    options->names_terrain = command->count("--terrain") > 0;
+    options->names_rover = command->count("--rover") > 0;
+    run = [options] { return check(*options); };
+  });
 }
 
 }  // namespace slipway::server

@@ -8,6 +8,7 @@
 
 #include "api/chart/drive_history.h"
 #include "api/documents/answer_vectors.h"
+#include "api/documents/drive_commands.h"
 #include "api/documents/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
@@ -43,6 +44,14 @@ Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool
   using api::json::VectorCoordinates;
   return api::json::answer_geojson(
       answer, *map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
+}
+
+Result<std::string> commands_of(const std::string& answer, const Pictures& pictures) {
+  const api::json::JsonValue plan = read_answer(answer);
+  if (pictures.commands.ends_with(".csv")) return api::json::commands_table(plan, pictures.route);
+  auto request = api::json::check_of_route(plan, pictures.route);
+  if (!request) return request;
+  return *request + "\n";
 }
 
 }  // namespace
@@ -83,7 +92,7 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view, bool why),
-                  ExitStatus (*verdict)(std::string_view)) {
+                  ExitStatus (*verdict)(std::string_view), const std::function<Error(Error)>& placed) {
   if (!request) return refuse(request.error());
   const auto service = inquiry(ask);
   if (!service) return refuse(service.error());
@@ -92,7 +101,7 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
     TerminalProgress progress;
     answer = ((**service).*question)(*request, progress);
   }
-  if (!answer) return refuse(answer.error());
+  if (!answer) return refuse(placed ? placed(answer.error()) : answer.error());
   const auto printed = ask.json ? answer : table(*answer, ask.why);
   if (!printed) return refuse(printed.error());
   std::vector<OutputFile> files;
@@ -110,6 +119,7 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
   if (!pictures.gpkg.empty()) add(pictures.gpkg, vectors_of(**service, *answer, true, false));
   if (!pictures.geojson.empty())
     add(pictures.geojson, vectors_of(**service, *answer, false, pictures.lonlat));
+  if (!pictures.commands.empty()) add(pictures.commands, commands_of(*answer, pictures));
   const int status = deliver(files, *printed + (ask.json ? "\n" : ""));
   if (unmade) return refuse(*unmade);
   return status == kDone ? verdict(*answer) : status;

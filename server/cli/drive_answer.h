@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct Pictures {
   std::string csv = {};                 // of the stations
   std::string gpkg = {}, geojson = {};  // of routes and stations
   bool lonlat = false;                  // the GeoJSON in degrees
+  std::string commands = {};            // of a plan: those of a route, CSV where it ends in .csv, else JSON
+  int route = 1;                        // whose commands
 };
 
 // Those that a drive's options name.
@@ -30,12 +33,14 @@ Pictures pictures_of(const DriveOptions& drive);
 Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
                           const std::vector<PlaceOption*>& places);
 
-// Asks, draws what is wanted, then prints the document or its table. The exit status: that of the document's
-// verdict, where all went well.
+// Asks, draws what is wanted, then prints the document or its table. `placed` says of an error of the
+// question where it stands in what the user wrote. The exit status: that of the document's verdict, where all
+// went well.
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view, bool why),
-                  ExitStatus (*verdict)(std::string_view));
+                  ExitStatus (*verdict)(std::string_view),
+                  const std::function<Error(Error)>& placed = {});
 
 // The exit status of an answer's verdict; of a plan, of its best route's.
 ExitStatus check_status(std::string_view check);

@@ -93,7 +93,8 @@ void write_place(Writer& w, const PlaceOption& place) {
 }
 
 Result<void> write_drive(Writer& w, const DriveOptions& drive) {
-  w.text("terrain", drive.terrain).text("rover", drive.rover);
+  if (!drive.terrain.empty()) w.text("terrain", drive.terrain);
+  if (!drive.rover.empty()) w.text("rover", drive.rover);
   if (!drive.limits.empty()) {
     w.key("limits").begin_object();
     for (const auto& [key, value] : drive.limits) w.exact(key, value);

@@ -93,8 +93,10 @@ int plan(const PlanOptions& given) {
     nominal.drive.rover = given.drive.rover;
     return compare_plans(nominal, given.request.empty() ? request_of(nominal) : request, options, request);
   }
-  return ask_and_print(options.ask, pictures_of(options.drive), request, &Inquiry::plan, &plan_table,
-                       &plan_status);
+  Pictures pictures = pictures_of(options.drive);
+  pictures.commands = options.commands;
+  pictures.route = options.route;
+  return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status);
 }
 
 }  // namespace slipway::server

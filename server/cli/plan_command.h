@@ -26,6 +26,8 @@ struct PlanOptions {
   std::vector<std::string> weights;  // "slip=8"
   std::optional<std::string> rank_by;
   std::optional<double> tail;
+  std::string commands;  // file for a route's commands; empty: none
+  int route = 1;         // whose
   bool compare = false;  // with the plan of the model that was corrected
 };
 

@@ -9,7 +9,10 @@ namespace {
 constexpr const char* kPlanExample =
     "Example: three routes between two places where Curiosity stopped, and a picture of them\n"
     "  slipway plan --terrain gale --rover msl-class --start 8142579.73,-276648.74 --goal "
-    "8142566.40,-276711.67 --map routes.svg";
+    "8142566.40,-276711.67 --map routes.svg\n"
+    "and the commands of the best one, with all that is assumed of the drive, for slipway check\n"
+    "  slipway plan --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --commands route.json\n"
+    "  slipway check --commands route.json";
 
 }  // namespace
 
@@ -39,6 +42,13 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
       "dearest of them");
   command->add_option("--tail", options->tail,
                       "share of the draws of which cvar is the mean; 0.1 where not given");
+  CLI::Option* const commands = command->add_option(
+      "--commands", options->commands,
+      "write the commands of the best route to this file: a table where it ends in .csv, otherwise the whole "
+      "request of a check (JSON)");
+  commands->excludes(command->get_option("--compare"));
+  command->add_option("--route", options->route, "whose commands, by rank; 1 where not given")
+      ->needs(commands);
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPlanExample);

@@ -311,8 +311,9 @@ Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
 double max_station_spacing_m(const RoverModel& rover);
 
-// The draws of one drive so far, from which more of them go on. Filled by predict_drive(); to be given to
-// calls that differ in the number of draws and in nothing else.
+// The draws of one drive so far, which are not made again. Filled by predict_drive(); to be given to calls
+// that differ in the number of draws and in nothing else. They change no answer: one that needs fewer of them
+// is of the first.
 struct DrawnDrives;
 using DrawsSoFar = std::shared_ptr<DrawnDrives>;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/parallel_for.h"
 #include "core/random.h"
@@ -92,11 +94,14 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
   const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options);
   const DrawsSoFar kept = so_far && *so_far ? *so_far : std::make_shared<DrawnDrives>();
   if (so_far) *so_far = kept;
+  // What was drawn before is taken as if it were drawn now: the answer does not depend on it.
+  std::vector<DrawnDrive> before = std::exchange(kept->all, {});
   std::vector<DrawnDrive>& drives = kept->all;
   const auto most = static_cast<std::size_t>(std::max(options.draws, options.max_draws));
   do {
-    if (!draw_more(driver, next_batch(drives.size(), options), drive.stations.size(), options, threads,
-                   progress, drives)) {
+    const std::size_t count = next_batch(drives.size(), options);
+    while (drives.size() < std::min(count, before.size())) drives.push_back(std::move(before[drives.size()]));
+    if (!draw_more(driver, count, drive.stations.size(), options, threads, progress, drives)) {
       drives.clear();  // some were cut short
       return false;
     }
@@ -112,6 +117,10 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
     if (station.risk > prediction.worst_place.value)
       prediction.worst_place = {station.risk, station.station.distance_m};
   }
+  if (drives.size() < before.size())
+    drives.insert(drives.end(),
+                  std::make_move_iterator(before.begin() + static_cast<std::ptrdiff_t>(drives.size())),
+                  std::make_move_iterator(before.end()));
   if (prediction.without_stance) prediction.worst_place = {1.0, prediction.without_stance->distance_m};
   return true;
 }

@@ -85,7 +85,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
     words.push_back(fmt::format("the wheel is sunk to its axle from slip {:.2f} on", *found.sunk_from_slip));
   if (!found.reported) {
     const bool above = !found.stands || current_a > found.greatest_current_a;
-    answer.verdict = above ? Trafficability::kNoGo : Trafficability::kCaution;
+    answer.verdict = above ? Trafficability::kNoGo : Trafficability::kUnknown;
     words.push_back(no_slip(current_a, found));
     return;
   }
@@ -101,7 +101,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
     answer.verdict = Trafficability::kNoGo;
     words.push_back(fmt::format("no_go: slip {:.2f} is above the limit {:.2f}", slip, options.max_slip));
   } else if (q.risk > options.accepted_risk || found.slips.size() > 1) {
-    answer.verdict = Trafficability::kCaution;
+    answer.verdict = Trafficability::kUnknown;
     words.push_back(
         fmt::format("caution: slip {:.2f} is within the limit {:.2f}; {:.0f} % of {} soil draws are above "
                     "it, {:.0f} % are "
@@ -185,8 +185,8 @@ std::string_view describe(Trafficability verdict) {
   switch (verdict) {
     case Trafficability::kGo:
       return "go";
-    case Trafficability::kCaution:
-      return "caution";
+    case Trafficability::kUnknown:
+      return "unknown";
     case Trafficability::kNoGo:
       break;
   }

@@ -36,8 +36,8 @@ struct GreatestPull {
 };
 std::optional<GreatestPull> greatest_pull(const WheelRigConditions& test);
 
-enum class Trafficability { kGo, kCaution, kNoGo };
-std::string_view describe(Trafficability verdict);  // "go", "caution", "no_go"
+enum class Trafficability { kGo, kUnknown, kNoGo };
+std::string_view describe(Trafficability verdict);  // "go", "unknown", "no_go"
 
 struct InverseOptions {
   double max_slip = 0.4;        // MER operations stopped drives at 40 %
@@ -68,7 +68,7 @@ struct CurrentInverse {
   // Where there is a slip.
   std::optional<double> slope_in_use_rad, slope_greatest_rad, slope_left_rad;
   SlipQuantiles quantiles;
-  Trafficability verdict = Trafficability::kCaution;
+  Trafficability verdict = Trafficability::kUnknown;
   std::vector<std::string> words;  // why, and what is doubtful
 };
 

@@ -83,13 +83,15 @@ class Contract(WithServer):
     def test_a_plan_has_three_routes_that_differ_and_the_safest_is_ranked_with_reasons(self):
         answer = json.loads(self.server.answer("/v1/plans", plan()))
         self.assertTrue(len(answer["summary"]) == 3 or answer["fewer_because"], answer["fewer_because"])
-        described = json.loads(self.server.ask("GET", "/openapi.json")[2])["components"]["schemas"]["PlanRequest"]
-        for key, value in answer["request"]["limits"].items():
-            self.assertEqual(described["properties"]["limits"]["properties"][key]["default"], value, key)
+        described = json.loads(self.server.ask("GET", "/openapi.json")[2])["components"]["schemas"]
+        for part, schema in (("limits", "DriveLimits"), ("checks", "DriveChecks"), ("bars", "DriveBars")):
+            self.assertEqual(described["PlanRequest"]["properties"][part]["$ref"], f"#/components/schemas/{schema}")
+            defaults = {key: of["default"] for key, of in described[schema]["properties"].items() if "default" in of}
+            self.assertEqual(answer["request"][part], defaults, part)
         for rank, (row, feature) in enumerate(zip(answer["summary"], answer["routes"]["features"]), 1):
             self.assertEqual(row["rank"], rank)
             self.assertTrue(row["reasons"])
-            self.assertIn(row["verdict"], ("go", "caution", "no_go"))
+            self.assertIn(row["verdict"], ("go", "no_go", "unknown"))
             stations = feature["properties"]["stations"]
             for series in ("distance_m", "slip", "slip_p95", "risk"):
                 self.assertEqual(len(stations[series]), stations["count"])

@@ -25,7 +25,7 @@ def plan(**changes):
     return {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, **changes}
 
 
-VERDICTS = (0, 3, 4)  # GO, NO-GO or no route, UNKNOWN or caution: the question was answered
+VERDICTS = (0, 3, 4)  # GO, NO-GO or no route, UNKNOWN: the question was answered
 
 
 def answered(command, **options):

@@ -1,26 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
-#include "dem/elevation_source.h"
 #include "planner/make_plan.h"
-#include "tests/planner/plan_fixture.h"
+#include "tests/planner/gale_fixture.h"
 
 namespace slipway::planner {
 namespace {
-
-// Firm ground on the real relief of Marias Pass.
-PlanProblem gale() {
-  const auto source = dem::open_elevation(SLIPWAY_DATA_FOLDER "/terrains/gale/elevation.tif");
-  PlanProblem problem = problem_of("S . .\n. . .\n. . G\n");
-  problem.terrain = source.value()->read(source.value()->info().geometry.extent()).value();
-  const dem::GridGeometry g = problem.terrain->geometry();
-  const auto cells = static_cast<std::size_t>(g.rows) * static_cast<std::size_t>(g.columns);
-  problem.soil_map = std::make_shared<dem::SoilMap>(g, std::vector<std::int16_t>(cells, 0),
-                                                    std::vector<std::uint8_t>(cells, 1),
-                                                    std::vector<dem::SoilClass>{{0, "a", "firm"}});
-  problem.beliefs.known = {firm_soil("firm")};
-  return problem;
-}
 
 int turns_in_place(const Route& route) {
   int turns = 0;
@@ -37,7 +22,7 @@ TEST(GalePlan, ClimbsTheScarpBetweenTwoOfCuriositysStopsWithinTheLimits) {
   NoProgress progress;
   const Result<Plan> plan = make_plan(problem, progress);
   ASSERT_TRUE(plan.has_value());
-  ASSERT_EQ(plan->routes.size(), 3U);
+  ASSERT_EQ(plan->routes.size(), 3U) << ::testing::PrintToString(plan->fewer_because);
   // The straight line of 64 m crosses slopes of over 25 deg.
   const Route& best = plan->routes.front();
   EXPECT_NE(best.verdict, Verdict::kNoGo);

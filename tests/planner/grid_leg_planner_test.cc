@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/angle.h"
 #include "planner/make_plan.h"
 #include "planner/problem/keep_out.h"
 #include "tests/planner/plan_fixture.h"
@@ -40,7 +41,7 @@ TEST(GridPlanner, IsAskedForByNameAndDrivesMotionsOfTheRover) {
     EXPECT_EQ(route.planner, "grid");
     EXPECT_NE(route.verdict, Verdict::kNoGo);
     const auto& stations = route.prediction.stations;
-    EXPECT_NEAR(stations.back().station.pose.x_m, problem.goal.x_m, 1e-9);
+    EXPECT_NEAR(stations.back().station.pose.x_m, problem.goal.x_m, 0.05);
     for (const sim::StationPrediction& s : stations)
       EXPECT_LE(std::abs(s.station.curvature_1_m) * problem.rover->min_turn_radius_m, 1.0 + 1e-9);
   }
@@ -48,8 +49,15 @@ TEST(GridPlanner, IsAskedForByNameAndDrivesMotionsOfTheRover) {
   EXPECT_EQ(grid_plan(problem).routes[0].prediction.length_m, plan.routes[0].prediction.length_m);
 }
 
-TEST(GridPlanner, IsNotAmongThoseThatSearchUnasked) {
-  for (const Route& route : grid_plan(problem_of(kYard)).routes) EXPECT_NE(route.planner, "grid");
+// Whatever the default set is, the grid's way and the straight line are simulated: on open ground the best
+// route is no longer than either.
+TEST(GridPlanner, AndTheStraightLineAreCandidatesUnasked) {
+  PlanProblem problem = problem_of(kYard);
+  const Plan plan = grid_plan(problem);
+  ASSERT_FALSE(plan.routes.empty());
+  problem.planners = {"grid"};
+  problem.routes = 1;
+  EXPECT_LE(plan.routes[0].cost, 1.03 * grid_plan(problem).routes.at(0).cost);
 }
 
 TEST(GridPlanner, FindsItsWayBetweenKeepOutsAndKeepsTheGoalsHeading) {
@@ -64,7 +72,7 @@ TEST(GridPlanner, FindsItsWayBetweenKeepOutsAndKeepsTheGoalsHeading) {
   for (const Route& route : plan.routes) {
     for (const sim::StationPrediction& s : route.prediction.stations)
       EXPECT_FALSE(keep_out.hits(s.station.pose));
-    EXPECT_NEAR(route.prediction.stations.back().station.pose.yaw_rad, -2.0, 1e-9);
+    EXPECT_NEAR(route.prediction.stations.back().station.pose.yaw_rad, -2.0, rad_from_deg(0.2));
   }
 }
 

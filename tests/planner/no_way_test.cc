@@ -203,5 +203,38 @@ TEST(NoPlannerFoundMotions, NamesTheHardestPlaceOfTheGridsWayWhereNothingWasFoun
   EXPECT_NE(plan->fewer_because[1].find("narrowest between"), std::string::npos) << plan->fewer_because[1];
 }
 
+// A ring of eight walls around the start, between which the body does not pass.
+TEST(NoWay, AStartInsideARingOfKeepOutsIsToldWhichOneClosesIt) {
+  PlanProblem problem = problem_on(40, 40, 1.0, 1.0, [](double, double) { return 0.0; });
+  problem.start = {10.0, 20.0, std::nullopt};
+  problem.goal = {32.0, 20.0, std::nullopt};
+  for (int k = 0; k < 8; ++k) {
+    const auto corner = [&](double radius, double aside) {
+      const double angle = rad_from_deg(45.0 * k + aside);
+      return Eigen::Vector2d(10.0 + radius * std::cos(angle), 20.0 + radius * std::sin(angle));
+    };
+    problem.keep_out.push_back(
+        {corner(3.0, -18.0), corner(3.0, 18.0), corner(3.3, 18.0), corner(3.3, -18.0)});
+  }
+  const Plan plan = plan_on(problem);
+  ASSERT_TRUE(plan.routes.empty());
+  std::string words;
+  for (const std::string& each : plan.fewer_because) words += each + "\n";
+  EXPECT_NE(words.find("keep_out/"), std::string::npos) << words;
+  EXPECT_EQ(words.find("no planner found"), std::string::npos) << words;
+}
+
+TEST(PlanFaults, AGoalWhereTheStartIsIsRefusedAndNamesBoth) {
+  PlanProblem problem = problem_on(40, 40, 1.0, 1.0, [](double, double) { return 0.0; });
+  problem.start = {10.0, 20.0, std::nullopt};
+  problem.goal = {10.0, 20.0, 1.0};
+  NoProgress progress;
+  const Result<Plan> plan = make_plan(problem, progress);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_EQ(plan.error().code, ErrorCode::kInvalidRequest);
+  EXPECT_EQ(plan.error().faults.at(0).pointer, "/goal");
+  EXPECT_NE(plan.error().faults.at(0).message.find("/start"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace slipway::planner

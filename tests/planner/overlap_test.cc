@@ -32,9 +32,13 @@ TEST(SelectRoutes, PrefersMoreRoutesToABetterOneAndThenTheBest) {
   differences.add(line(0, 0, 70, 0));    // 1: most of 0
   differences.add(line(30, 0, 100, 0));  // 2: most of 0
   differences.add(line(0, 9, 100, 9));   // 3: apart
-  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 3), (std::vector<std::size_t>{1, 2, 3}));
-  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 2), (std::vector<std::size_t>{0, 3}));
-  EXPECT_EQ(select_routes(differences, {3, 0, 1, 2}, 1), (std::vector<std::size_t>{3}));
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 4, 3), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 4, 2), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(select_routes(differences, {3, 0, 1, 2}, 4, 1), (std::vector<std::size_t>{3}));
+  // One of the leaders is in the set, whatever that costs in number.
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 1, 3), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 2, 3), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(as_good_as_best({2.0, 2.01, 2.02, 2.03}), 3U);
 }
 
 }  // namespace

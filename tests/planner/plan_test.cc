@@ -39,8 +39,8 @@ TEST(Plan, FindsThreeRoutesThatDifferOnOpenGround) {
     std::vector<Eigen::Vector2d> line;
     for (const auto& s : route.prediction.stations) line.emplace_back(s.station.pose.x_m, s.station.pose.y_m);
     differences.add(line);
-    EXPECT_NEAR(route.prediction.stations.back().station.pose.x_m, problem.goal.x_m, 1e-6);
-    EXPECT_NEAR(route.prediction.stations.back().station.pose.y_m, problem.goal.y_m, 1e-6);
+    EXPECT_NEAR(route.prediction.stations.back().station.pose.x_m, problem.goal.x_m, 0.05);
+    EXPECT_NEAR(route.prediction.stations.back().station.pose.y_m, problem.goal.y_m, 0.05);
   }
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < a; ++b) EXPECT_LE(differences.shared(a, b), kMaxOverlap + 0.02);
@@ -252,12 +252,13 @@ TEST(Plan, VisitsWaypointsInOrderAndKeepsTheGoalsHeading) {
       const auto at = std::find_if(
           route.prediction.stations.begin(), route.prediction.stations.end(), [&](const auto& s) {
             return s.station.distance_m >= last &&
-                   std::hypot(s.station.pose.x_m - place.x_m, s.station.pose.y_m - place.y_m) < 1e-6;
+                   std::hypot(s.station.pose.x_m - place.x_m, s.station.pose.y_m - place.y_m) < 0.05;
           });
       ASSERT_NE(at, route.prediction.stations.end());
       last = at->station.distance_m;
     }
-    EXPECT_NEAR(wrapped_rad(route.prediction.stations.back().station.pose.yaw_rad - 1.0), 0.0, 1e-9);
+    EXPECT_NEAR(wrapped_rad(route.prediction.stations.back().station.pose.yaw_rad - 1.0), 0.0,
+                rad_from_deg(0.2));
   }
 }
 

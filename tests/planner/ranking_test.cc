@@ -124,7 +124,7 @@ std::vector<Route> routes_of(const std::vector<WeightedCost>& first,
       route.prediction.drawn.push_back({.weight = each.weight, .breaks_a_limit = each.cost > 2.0});
     for (const sim::DrawFigures& draw : route.prediction.drawn)
       route.prediction.risk += (draw.breaks_a_limit ? 1.0 : 0.0) / route.prediction.draws;
-    route.ranked_cost = conditional_value_at_risk(route.drawn_costs, 1.0);
+    route.cost = conditional_value_at_risk(route.drawn_costs, 1.0);
   }
   return routes;
 }
@@ -147,18 +147,18 @@ TEST(Explain, SaysByHowMuchTheBestLeadsAndSafestOnlyWhereTheDrawsTellIt) {
       << told[0].reasons[1];
   EXPECT_TRUE(says(told[0], "safest: risk 0 % against 25 % of route 2, 90 % interval of the difference"));
   EXPECT_TRUE(says(told[1], "behind route 1: cost 1.88 against 1.03 in the mean of 64 draws"));
-  EXPECT_TRUE(clearly_apart(told[0], told[1], {}));
+  EXPECT_EQ(order_of(told[0], told[1], {}), RankOrder::kTold);
 
   auto near = cheap;
   near[3].cost = 2.5;
   std::vector<Route> alike = routes_of(cheap, near);
   explain(alike);
-  EXPECT_TRUE(says(alike[0], "first, but alike with route 2: costs 0.02 less in the mean of 64 draws"))
+  EXPECT_TRUE(says(alike[0], "tied with route 2: costs 0.02 less than route 2 in the mean of 64 draws"))
       << alike[0].reasons[1];
   EXPECT_TRUE(says(alike[0], "alike in risk: risk 0 % against 2 % of route 2"));
   EXPECT_FALSE(says(alike[0], "safest"));
-  EXPECT_TRUE(says(alike[1], "behind route 1, but alike"));
-  EXPECT_FALSE(clearly_apart(alike[0], alike[1], {}));
+  EXPECT_TRUE(says(alike[1], "tied with route 1: cost 1.05 against 1.03"));
+  EXPECT_EQ(order_of(alike[0], alike[1], {}), RankOrder::kTied);
 
   explain(told, {.by = RankBy::kCvar, .tail = 0.25});
   EXPECT_TRUE(says(told[0], "in the mean of the worst 25 % of 64 draws")) << told[0].reasons[1];
@@ -189,31 +189,37 @@ TEST(Pareto, MarksTheRoutesThatNoOtherDominates) {
   EXPECT_FALSE(routes[0].pareto);
 }
 
-// Under another seed the costs of two routes that are alike change places, and the routes do not.
-TEST(RankedOrder, OfRoutesThatTheDrawsDoNotTellApartTheShortestIsFirst) {
-  std::vector<WeightedCost> one, other, worse;
+TEST(RankedOrder, IsByCostAndWhatBreaksALimitComesLast) {
+  std::vector<WeightedCost> dear, cheap, cheapest;
+  for (std::size_t k = 0; k < 64; ++k) {
+    dear.push_back({6.0 + random_normal(1, k)});
+    cheap.push_back({5.0 + random_normal(2, k)});
+    cheapest.push_back({2.0 + random_normal(3, k)});
+  }
+  std::vector<Route> routes = routes_of(dear, cheap);
+  routes.push_back(routes_of(cheapest, cheapest).front());
+  routes[0].prediction.length_m = 10.0;  // does not help it
+  EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
+  // Neither a caution nor a draw of luck changes the order, a broken limit does.
+  routes[2].verdict = Verdict::kCaution;
+  EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
+  routes[2].verdict = Verdict::kNoGo;
+  EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{1, 0, 2}));
+}
+
+TEST(RankedOrder, IsTiedOnlyWithin3PercentAndOpenWhereFewDrawsDoNotTell) {
+  std::vector<WeightedCost> one, other, further;
   for (std::size_t k = 0; k < 64; ++k) {
     one.push_back({5.0 + random_normal(1, k)});
-    other.push_back({5.0 + random_normal(2, k)});
-    worse.push_back({9.0 + random_normal(3, k)});
+    other.push_back({5.05 + random_normal(2, k)});
+    further.push_back({5.0 + 8.0 * std::abs(random_normal(3, k)) * (k % 16 == 0 ? 1.0 : 0.0)});
   }
-  for (const bool swapped : {false, true}) {
-    std::vector<Route> routes = swapped ? routes_of(other, one) : routes_of(one, other);
-    Route last;
-    last.drawn_costs = worse;
-    last.ranked_cost = conditional_value_at_risk(worse, 1.0);
-    routes.push_back(last);
-    ASSERT_FALSE(clearly_apart(routes[0], routes[1], {}));
-    routes[0].prediction.length_m = 30.0;
-    routes[1].prediction.length_m = 20.0;
-    routes[2].prediction.length_m = 10.0;  // does not help it: the draws tell it from the others
-    EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{1, 0, 2}));
-    // A caution does not come before a go for being shorter: here the cheaper of the two decides.
-    routes[0].verdict = Verdict::kGo;
-    routes[1].verdict = Verdict::kCaution;
-    routes[0].ranked_cost = std::min(routes[0].ranked_cost, routes[1].ranked_cost) - 0.01;
-    EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{0, 1, 2}));
-  }
+  const std::vector<Route> close = routes_of(one, other), far = routes_of(one, further);
+  const double share = std::abs(far[0].cost - far[1].cost) / std::min(far[0].cost, far[1].cost);
+  ASSERT_GT(share, 0.03);
+  ASSERT_FALSE(ranked_difference(far[0], far[1], {}).decided());
+  EXPECT_EQ(order_of(far[0], far[1], {}), RankOrder::kUndecided);
+  EXPECT_EQ(order_of(close[0], close[1], {}), RankOrder::kTied);
 }
 
 sim::SoilDistribution without_spread(sim::SoilDistribution soil) {
@@ -221,7 +227,7 @@ sim::SoilDistribution without_spread(sim::SoilDistribution soil) {
   return soil;
 }
 
-TEST(RankedPlan, WithoutSpreadTheCvarTheMeanAndTheCostAreOne) {
+TEST(RankedPlan, WithoutSpreadTheCvarAndTheMeanAreOne) {
   PlanProblem problem = problem_on(
       32, 32, 1.0, 1.0, [](double x, double y) { return 0.4 * std::sin(0.2 * x) * std::cos(0.15 * y); });
   problem.beliefs = {{without_spread(firm_soil("firm"))}, without_spread(soft_soil("unknown"))};
@@ -232,9 +238,8 @@ TEST(RankedPlan, WithoutSpreadTheCvarTheMeanAndTheCostAreOne) {
     const Plan plan = plan_on(problem);
     ASSERT_FALSE(plan.routes.empty());
     for (const Route& route : plan.routes) {
-      EXPECT_NEAR(route.expected_cost, route.cost, 1e-5 * route.cost);
-      EXPECT_NEAR(route.cvar_cost, route.cost, 1e-5 * route.cost);
-      EXPECT_EQ(route.ranked_cost, by == RankBy::kCvar ? route.cvar_cost : route.expected_cost);
+      EXPECT_NEAR(route.cvar_cost, route.expected_cost, 1e-5 * route.cost);
+      EXPECT_EQ(route.cost, by == RankBy::kCvar ? route.cvar_cost : route.expected_cost);
     }
   }
 }
@@ -256,10 +261,10 @@ TEST(RankedPlan, TheCvarIsAtLeastTheMeanAndTheTermsAddUpToWhatRanks) {
         EXPECT_NEAR(route.cvar_cost, route.expected_cost, 1e-9);
       }
       double sum = 0.0;
-      for (const CostShare& share : route.shares) sum += share.ranked_cost;
-      EXPECT_NEAR(sum, route.ranked_cost, 1e-9);
-      if (before && clearly_apart(*before, route, ranking)) {
-        EXPECT_GE(route.ranked_cost, before->ranked_cost);
+      for (const CostShare& share : route.shares) sum += share.cost;
+      EXPECT_NEAR(sum, route.cost, 1e-9);
+      if (before != nullptr && (before->verdict == Verdict::kNoGo) == (route.verdict == Verdict::kNoGo)) {
+        EXPECT_GE(route.cost, before->cost);
       }
       before = &route;
     }

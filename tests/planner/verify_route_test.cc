@@ -191,7 +191,7 @@ TEST(VerifyRoute, ADriveThatLeavesItsRouteNeitherConfirmsNorRefutesIt) {
   route.prediction.risk = 0.0;
   route.dynamic = *dynamic;
   judge(problem, route);
-  EXPECT_EQ(route.verdict, Verdict::kCaution);
+  EXPECT_EQ(route.verdict(), Verdict::kUnknown);
   std::vector<Route> routes{route};
   explain(routes);
   EXPECT_TRUE(routes[0].reasons[0].starts_with(
@@ -248,7 +248,7 @@ Route safe_route(const PlanProblem& problem) {
   route.prediction = predict_path(problem, kCorner, progress).value();
   route.prediction.risk = 0.0;
   judge(problem, route);
-  EXPECT_EQ(route.verdict, Verdict::kGo);
+  EXPECT_EQ(route.verdict(), Verdict::kGo);
   return route;
 }
 
@@ -264,10 +264,10 @@ TEST(Verdict, WhatTheDynamicSimulationRefutesIsNoGoAndSaysSo) {
   routes[2].dynamic->distance_m = 2.0;
   routes[3].dynamic->broken_limits = {"slip 0.5 at 3.0 m, limit 0.4"};
   for (Route& route : routes) judge(problem, route);
-  EXPECT_EQ(routes[0].verdict, Verdict::kGo);
-  EXPECT_EQ(routes[1].verdict, Verdict::kCaution);
-  EXPECT_EQ(routes[2].verdict, Verdict::kNoGo);
-  EXPECT_EQ(routes[3].verdict, Verdict::kNoGo);
+  EXPECT_EQ(routes[0].verdict(), Verdict::kGo);
+  EXPECT_EQ(routes[1].verdict(), Verdict::kUnknown);
+  EXPECT_EQ(routes[2].verdict(), Verdict::kNoGo);
+  EXPECT_EQ(routes[3].verdict(), Verdict::kNoGo);
   EXPECT_TRUE(ranks_before(routes[0], routes[2]));
   explain(routes);
   EXPECT_EQ(routes[1].reasons[0], "caution: no answer from the dynamic simulation: the integrator gives up");

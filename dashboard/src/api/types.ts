@@ -417,7 +417,7 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * GO, NO-GO or UNKNOWN for a path or a command sequence
+         * GO, NO-GO or UNKNOWN for a path, a command sequence or a route of a plan
          * @description A job like a plan, for which the service waits 10 seconds unless Prefer says otherwise: usually the answer comes at once. What takes longer is answered with 201 and goes on.
          */
         post: operations["create_check"];
@@ -938,70 +938,9 @@ export interface components {
             verify: number;
             /** @description Empty: the default set */
             planners?: string[];
-            /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
-            limits?: {
-                /**
-                 * @description Largest slip of the rover [1]
-                 * @default 0.4
-                 */
-                max_slip: number;
-                /**
-                 * @description Largest tilt of the body [deg]
-                 * @default 25
-                 */
-                max_tilt_deg: number;
-                /**
-                 * @description Largest current of any wheel's motor [A]
-                 * @default 10
-                 */
-                max_current_a: number;
-                /**
-                 * @description Largest sinkage of any wheel [m]
-                 * @default 0.08
-                 */
-                max_sinkage_m: number;
-                /**
-                 * @description Least height of the belly above the ground [m]
-                 * @default 0
-                 */
-                min_clearance_m: number;
-            };
-            /** @description How the rover watches itself on the way */
-            checks?: {
-                /**
-                 * @description Way that the wheels roll between two checks of the slip [m]
-                 * @default 5
-                 */
-                slip_check_every_m: number;
-                /**
-                 * @description Over this slip the wheels dig rather than drive [1]
-                 * @default 0.9
-                 */
-                embedding_slip: number;
-                /**
-                 * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-                 * @default 10
-                 */
-                embedding_turns: number;
-                /**
-                 * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-                 * @default 0.75
-                 */
-                embedding_sinkage_share: number;
-            };
-            /** @description What decides between GO, NO-GO and UNKNOWN */
-            bars?: {
-                /**
-                 * @description A GO needs the upper end of the interval of embedding below this
-                 * @default 0.01
-                 */
-                max_embedding: number;
-                /**
-                 * @description A GO needs the upper end of the interval of expected stops below this
-                 * @default 0.5
-                 */
-                max_expected_stops: number;
-            };
+            limits?: components["schemas"]["DriveLimits"];
+            checks?: components["schemas"]["DriveChecks"];
+            bars?: components["schemas"]["DriveBars"];
             effects?: {
                 /** @description Of GET /v1/effects */
                 name: string;
@@ -1067,70 +1006,9 @@ export interface components {
                 number,
                 number
             ][][];
-            /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
-            limits?: {
-                /**
-                 * @description Largest slip of the rover [1]
-                 * @default 0.4
-                 */
-                max_slip: number;
-                /**
-                 * @description Largest tilt of the body [deg]
-                 * @default 25
-                 */
-                max_tilt_deg: number;
-                /**
-                 * @description Largest current of any wheel's motor [A]
-                 * @default 10
-                 */
-                max_current_a: number;
-                /**
-                 * @description Largest sinkage of any wheel [m]
-                 * @default 0.08
-                 */
-                max_sinkage_m: number;
-                /**
-                 * @description Least height of the belly above the ground [m]
-                 * @default 0
-                 */
-                min_clearance_m: number;
-            };
-            /** @description How the rover watches itself on the way */
-            checks?: {
-                /**
-                 * @description Way that the wheels roll between two checks of the slip [m]
-                 * @default 5
-                 */
-                slip_check_every_m: number;
-                /**
-                 * @description Over this slip the wheels dig rather than drive [1]
-                 * @default 0.9
-                 */
-                embedding_slip: number;
-                /**
-                 * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-                 * @default 10
-                 */
-                embedding_turns: number;
-                /**
-                 * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-                 * @default 0.75
-                 */
-                embedding_sinkage_share: number;
-            };
-            /** @description What decides between GO, NO-GO and UNKNOWN */
-            bars?: {
-                /**
-                 * @description A GO needs the upper end of the interval of embedding below this
-                 * @default 0.01
-                 */
-                max_embedding: number;
-                /**
-                 * @description A GO needs the upper end of the interval of expected stops below this
-                 * @default 0.5
-                 */
-                max_expected_stops: number;
-            };
+            limits?: components["schemas"]["DriveLimits"];
+            checks?: components["schemas"]["DriveChecks"];
+            bars?: components["schemas"]["DriveBars"];
             effects?: {
                 /** @description Of GET /v1/effects */
                 name: string;
@@ -1315,11 +1193,8 @@ export interface components {
                 /** @description The search's own sum; once the route was simulated, the cost by which it is ranked */
                 cost?: number;
                 length_m?: number;
-                /**
-                 * @description Not there before the route was simulated
-                 * @enum {unknown}
-                 */
-                verdict?: "go" | "caution" | "no_go";
+                /** @description Not there before the route was simulated */
+                verdict?: components["schemas"]["Verdict"];
                 /** @description Places in map metres, some 200 */
                 line?: number[][];
             };
@@ -1445,6 +1320,12 @@ export interface components {
             slip_p05?: number[];
             slip_p50?: number[];
             slip_p95?: number[];
+            /** @description Way to the side since the last check of the slip, positive to the left, on the mean soils [m] */
+            aside_m?: number[];
+            /** @description 5th percentile over the draws [m] */
+            aside_m_p05?: number[];
+            /** @description 95th percentile over the draws [m] */
+            aside_m_p95?: number[];
             side_slip_deg?: number[];
             /** @description Yaw rate of the balance, positive to the left: where it is not what the path asks for, the rover does not hold its heading by itself [deg/s] */
             yaw_rate_deg_s?: number[];
@@ -1458,8 +1339,9 @@ export interface components {
             sinkage_m_p95?: (number | null)[];
             /** @description null on ground that is known by a slip curve alone */
             power_w?: (number | null)[];
+            /** @description Share of the draws that break a limit or are immobilised at the station */
             risk?: number[];
-            /** @description Expected stops at the station */
+            /** @description Share of the draws that halt at the station first; of a drive in segments, of each */
             expected_stops?: number[];
             /** @description Share of the draws that are embedded at the station */
             embedding?: number[];
@@ -1483,133 +1365,184 @@ export interface components {
         };
         DriveFigures: {
             /** @constant */
-            fidelity?: "quasi_static";
+            fidelity: "quasi_static";
             /** @description Driven [m] */
-            length_m?: number;
+            length_m: number;
             /** @description Turned in place [deg] */
-            turned_deg?: number;
+            turned_deg: number;
             /** @description Under the mean soils [s] */
-            duration_s?: number;
+            duration_s: number;
             /** @description 95 % of the draws are faster [s] */
-            duration_p95_s?: number;
+            duration_p95_s: number;
             /** @description Of the drive motors [Wh]; null where part of the way is known by a slip curve alone */
-            energy_wh?: number | null;
+            energy_wh: number | null;
             /** @description 95 % of the draws need less [Wh]; null where part of the way is known by a slip curve alone */
-            energy_p95_wh?: number | null;
+            energy_p95_wh: number | null;
             /** @description Over the length [1] */
-            mean_slip?: number;
+            mean_slip: number;
             /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
-            mean_slip_p05?: number;
+            mean_slip_p05: number;
             /** @description Half of the draws have a mean slip below it [1] */
-            mean_slip_p50?: number;
+            mean_slip_p50: number;
             /** @description 95 % of the draws have a mean slip below it [1] */
-            mean_slip_p95?: number;
-            max_slip?: components["schemas"]["Peak"];
-            max_tilt_deg?: components["schemas"]["Peak"];
+            mean_slip_p95: number;
+            max_slip: components["schemas"]["Peak"];
+            max_tilt_deg: components["schemas"]["Peak"];
             /** @description null where part of the way is known by a slip curve alone */
-            max_current_a?: null | components["schemas"]["Peak"];
+            max_current_a: null | components["schemas"]["Peak"];
             /** @description null where part of the way is known by a slip curve alone */
-            max_sinkage_m?: null | components["schemas"]["Peak"];
+            max_sinkage_m: null | components["schemas"]["Peak"];
             /** @description Driven on unknown ground [m] */
-            unknown_length_m?: number;
+            unknown_length_m: number;
             /** @description Driven on ground that is known by a slip curve alone [m]; a route's energy term then counts the rest of the way alone. Absent where no station is on such ground */
             slip_curve_length_m?: number;
-            immobilised?: null | {
-                at_m?: number;
-                x_m?: number;
-                y_m?: number;
-                reason?: string;
-            };
-            broken_limits?: string[];
-            /** @description low and high: 90 % Wilson interval */
-            risk?: {
-                /** @description Share of draws that break a limit or end immobilised [1] */
-                value?: number;
-                low?: number;
-                high?: number;
-                immobilised?: number;
-                draws?: number;
-                worst_place?: components["schemas"]["Peak"];
-            };
-            stop?: components["schemas"]["DrawnShare"];
-            embedding?: components["schemas"]["DrawnShare"];
-            expected_stops?: number;
+            immobilised: null | components["schemas"]["Immobilised"];
+            broken_limits: string[];
+            risk: components["schemas"]["DriveRisk"];
+            /** @description At least one rule halts the drive */
+            stop: components["schemas"]["DrawnShare"];
+            /** @description null where no draw halts */
+            worst_halt: null | components["schemas"]["WorstHalt"];
+            /** @description The wheels dig in before a check halts the drive */
+            embedding: components["schemas"]["DrawnShare"];
+            /** @description Mean number of halts until the drive is through, each followed by another sol */
+            expected_stops: number;
             dynamic?: components["schemas"]["DynamicFigures"];
         };
+        DriveRoutes: {
+            /** @constant */
+            type?: "FeatureCollection";
+            crs_name?: string;
+            /** @description What a position holds: map metres of the terrain, not degrees */
+            coordinates?: string;
+            features?: {
+                /** @constant */
+                type?: "Feature";
+                id?: number;
+                geometry?: null | {
+                    /** @constant */
+                    type?: "LineString";
+                    coordinates?: number[][];
+                };
+                properties?: {
+                    /** @constant */
+                    fidelity?: "quasi_static";
+                    /** @description Driven [m] */
+                    length_m?: number;
+                    /** @description Turned in place [deg] */
+                    turned_deg?: number;
+                    /** @description Under the mean soils [s] */
+                    duration_s?: number;
+                    /** @description 95 % of the draws are faster [s] */
+                    duration_p95_s?: number;
+                    /** @description Of the drive motors [Wh]; null where part of the way is known by a slip curve alone */
+                    energy_wh?: number | null;
+                    /** @description 95 % of the draws need less [Wh]; null where part of the way is known by a slip curve alone */
+                    energy_p95_wh?: number | null;
+                    /** @description Over the length [1] */
+                    mean_slip?: number;
+                    /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
+                    mean_slip_p05?: number;
+                    /** @description Half of the draws have a mean slip below it [1] */
+                    mean_slip_p50?: number;
+                    /** @description 95 % of the draws have a mean slip below it [1] */
+                    mean_slip_p95?: number;
+                    max_slip?: components["schemas"]["Peak"];
+                    max_tilt_deg?: components["schemas"]["Peak"];
+                    /** @description null where part of the way is known by a slip curve alone */
+                    max_current_a?: null | components["schemas"]["Peak"];
+                    /** @description null where part of the way is known by a slip curve alone */
+                    max_sinkage_m?: null | components["schemas"]["Peak"];
+                    /** @description Driven on unknown ground [m] */
+                    unknown_length_m?: number;
+                    /** @description Driven on ground that is known by a slip curve alone [m]; a route's energy term then counts the rest of the way alone. Absent where no station is on such ground */
+                    slip_curve_length_m?: number;
+                    immobilised?: null | components["schemas"]["Immobilised"];
+                    broken_limits?: string[];
+                    risk?: components["schemas"]["DriveRisk"];
+                    /** @description At least one rule halts the drive */
+                    stop?: components["schemas"]["DrawnShare"];
+                    /** @description null where no draw halts */
+                    worst_halt?: null | components["schemas"]["WorstHalt"];
+                    /** @description The wheels dig in before a check halts the drive */
+                    embedding?: components["schemas"]["DrawnShare"];
+                    /** @description Mean number of halts until the drive is through, each followed by another sol */
+                    expected_stops?: number;
+                    stations?: components["schemas"]["Stations"];
+                    dynamic?: components["schemas"]["DynamicDrive"];
+                };
+            }[];
+        };
         RouteFigures: {
-            rank?: number;
-            planner?: string;
-            profile?: string;
-            /** @enum {unknown} */
-            verdict?: "go" | "caution" | "no_go";
-            reasons?: string[];
+            rank: number;
+            planner: string;
+            profile: string;
+            verdict: components["schemas"]["Verdict"];
+            /** @description The verdict with what decides it, and why the route has its rank */
+            reasons: string[];
             /** @description No other route of the plan is at least as good in duration, energy, expected stops and embedding, and better in one of them */
-            pareto?: boolean;
-            cost?: number;
-            cost_shares?: {
+            pareto: boolean;
+            /** @description By which routes are ranked: the mean of the costs of the draws of the ground, or their CVaR */
+            cost: number;
+            /** @description The terms of cost; value is in the mean of the draws that rank */
+            cost_shares: {
                 name?: string;
                 value?: number;
                 unit?: string;
                 weight?: number;
                 cost?: number;
             }[];
-            /** @description Mean of the costs of the draws of the ground; cost is of the mean soils */
-            expected_cost?: number;
+            /** @description Mean of the costs of the draws of the ground */
+            expected_cost: number;
             /** @description Mean of the dearest of them, of the share of the draws that ranking.tail names */
-            cvar_cost?: number;
+            cvar_cost: number;
             /** @constant */
-            fidelity?: "quasi_static";
+            fidelity: "quasi_static";
             /** @description Driven [m] */
-            length_m?: number;
+            length_m: number;
             /** @description Turned in place [deg] */
-            turned_deg?: number;
+            turned_deg: number;
             /** @description Under the mean soils [s] */
-            duration_s?: number;
+            duration_s: number;
             /** @description 95 % of the draws are faster [s] */
-            duration_p95_s?: number;
+            duration_p95_s: number;
             /** @description Of the drive motors [Wh]; null where part of the way is known by a slip curve alone */
-            energy_wh?: number | null;
+            energy_wh: number | null;
             /** @description 95 % of the draws need less [Wh]; null where part of the way is known by a slip curve alone */
-            energy_p95_wh?: number | null;
+            energy_p95_wh: number | null;
             /** @description Over the length [1] */
-            mean_slip?: number;
+            mean_slip: number;
             /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
-            mean_slip_p05?: number;
+            mean_slip_p05: number;
             /** @description Half of the draws have a mean slip below it [1] */
-            mean_slip_p50?: number;
+            mean_slip_p50: number;
             /** @description 95 % of the draws have a mean slip below it [1] */
-            mean_slip_p95?: number;
-            max_slip?: components["schemas"]["Peak"];
-            max_tilt_deg?: components["schemas"]["Peak"];
+            mean_slip_p95: number;
+            max_slip: components["schemas"]["Peak"];
+            max_tilt_deg: components["schemas"]["Peak"];
             /** @description null where part of the way is known by a slip curve alone */
-            max_current_a?: null | components["schemas"]["Peak"];
+            max_current_a: null | components["schemas"]["Peak"];
             /** @description null where part of the way is known by a slip curve alone */
-            max_sinkage_m?: null | components["schemas"]["Peak"];
+            max_sinkage_m: null | components["schemas"]["Peak"];
             /** @description Driven on unknown ground [m] */
-            unknown_length_m?: number;
+            unknown_length_m: number;
             /** @description Driven on ground that is known by a slip curve alone [m]; a route's energy term then counts the rest of the way alone. Absent where no station is on such ground */
             slip_curve_length_m?: number;
-            immobilised?: null | {
-                at_m?: number;
-                x_m?: number;
-                y_m?: number;
-                reason?: string;
-            };
-            broken_limits?: string[];
-            /** @description low and high: 90 % Wilson interval */
-            risk?: {
-                /** @description Share of draws that break a limit or end immobilised [1] */
-                value?: number;
-                low?: number;
-                high?: number;
-                immobilised?: number;
-                draws?: number;
-                worst_place?: components["schemas"]["Peak"];
-            };
-            stop?: components["schemas"]["DrawnShare"];
-            embedding?: components["schemas"]["DrawnShare"];
-            expected_stops?: number;
+            immobilised: null | components["schemas"]["Immobilised"];
+            broken_limits: string[];
+            risk: components["schemas"]["DriveRisk"];
+            /** @description At least one rule halts the drive */
+            stop: components["schemas"]["DrawnShare"];
+            /** @description null where no draw halts */
+            worst_halt: null | components["schemas"]["WorstHalt"];
+            /** @description The wheels dig in before a check halts the drive */
+            embedding: components["schemas"]["DrawnShare"];
+            /** @description Mean number of halts until the drive is through, each followed by another sol */
+            expected_stops: number;
             dynamic?: components["schemas"]["DynamicFigures"];
+            start?: components["schemas"]["Waypoint"];
+            /** @description How the route is driven from start, as POST /v1/checks takes it. The figures are of these commands: a check of them under the same assumptions gives the same */
+            commands?: components["schemas"]["DriveCommand"][];
         };
         /** @description The drive at the dynamic level: the rover as a multibody with motors and soil under every wheel, its pose fed back, under the mean soils. max_slip is of the mean over the time that two wheel radii take at cruise speed. Absent where it was not asked for */
         DynamicFigures: {
@@ -1807,79 +1740,79 @@ export interface components {
                     coordinates?: number[][];
                 };
                 properties?: {
-                    rank?: number;
-                    planner?: string;
-                    profile?: string;
-                    /** @enum {unknown} */
-                    verdict?: "go" | "caution" | "no_go";
-                    reasons?: string[];
+                    rank: number;
+                    planner: string;
+                    profile: string;
+                    verdict: components["schemas"]["Verdict"];
+                    /** @description The verdict with what decides it, and why the route has its rank */
+                    reasons: string[];
                     /** @description No other route of the plan is at least as good in duration, energy, expected stops and embedding, and better in one of them */
-                    pareto?: boolean;
-                    cost?: number;
-                    cost_shares?: {
+                    pareto: boolean;
+                    /** @description By which routes are ranked: the mean of the costs of the draws of the ground, or their CVaR */
+                    cost: number;
+                    /** @description The terms of cost; value is in the mean of the draws that rank */
+                    cost_shares: {
                         name?: string;
                         value?: number;
                         unit?: string;
                         weight?: number;
                         cost?: number;
                     }[];
-                    /** @description Mean of the costs of the draws of the ground; cost is of the mean soils */
-                    expected_cost?: number;
+                    /** @description Mean of the costs of the draws of the ground */
+                    expected_cost: number;
                     /** @description Mean of the dearest of them, of the share of the draws that ranking.tail names */
-                    cvar_cost?: number;
+                    cvar_cost: number;
                     /** @constant */
-                    fidelity?: "quasi_static";
+                    fidelity: "quasi_static";
                     /** @description Driven [m] */
-                    length_m?: number;
+                    length_m: number;
                     /** @description Turned in place [deg] */
-                    turned_deg?: number;
+                    turned_deg: number;
                     /** @description Under the mean soils [s] */
-                    duration_s?: number;
+                    duration_s: number;
                     /** @description 95 % of the draws are faster [s] */
-                    duration_p95_s?: number;
-                    /** @description Of the drive motors [Wh] */
-                    energy_wh?: number;
-                    /** @description 95 % of the draws need less [Wh] */
-                    energy_p95_wh?: number;
+                    duration_p95_s: number;
+                    /** @description Of the drive motors [Wh]; null where part of the way is known by a slip curve alone */
+                    energy_wh: number | null;
+                    /** @description 95 % of the draws need less [Wh]; null where part of the way is known by a slip curve alone */
+                    energy_p95_wh: number | null;
                     /** @description Over the length [1] */
-                    mean_slip?: number;
+                    mean_slip: number;
                     /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
-                    mean_slip_p05?: number;
+                    mean_slip_p05: number;
                     /** @description Half of the draws have a mean slip below it [1] */
-                    mean_slip_p50?: number;
+                    mean_slip_p50: number;
                     /** @description 95 % of the draws have a mean slip below it [1] */
-                    mean_slip_p95?: number;
-                    max_slip?: components["schemas"]["Peak"];
-                    max_tilt_deg?: components["schemas"]["Peak"];
-                    max_current_a?: components["schemas"]["Peak"];
-                    max_sinkage_m?: components["schemas"]["Peak"];
+                    mean_slip_p95: number;
+                    max_slip: components["schemas"]["Peak"];
+                    max_tilt_deg: components["schemas"]["Peak"];
+                    /** @description null where part of the way is known by a slip curve alone */
+                    max_current_a: null | components["schemas"]["Peak"];
+                    /** @description null where part of the way is known by a slip curve alone */
+                    max_sinkage_m: null | components["schemas"]["Peak"];
                     /** @description Driven on unknown ground [m] */
-                    unknown_length_m?: number;
-                    immobilised?: null | {
-                        at_m?: number;
-                        x_m?: number;
-                        y_m?: number;
-                        reason?: string;
-                    };
-                    broken_limits?: string[];
-                    /** @description low and high: 90 % Wilson interval */
-                    risk?: {
-                        /** @description Share of draws that break a limit or end immobilised [1] */
-                        value?: number;
-                        low?: number;
-                        high?: number;
-                        immobilised?: number;
-                        draws?: number;
-                        worst_place?: components["schemas"]["Peak"];
-                    };
-                    stop?: components["schemas"]["DrawnShare"];
-                    embedding?: components["schemas"]["DrawnShare"];
-                    expected_stops?: number;
-                    stations?: components["schemas"]["Stations"];
+                    unknown_length_m: number;
+                    /** @description Driven on ground that is known by a slip curve alone [m]; a route's energy term then counts the rest of the way alone. Absent where no station is on such ground */
+                    slip_curve_length_m?: number;
+                    immobilised: null | components["schemas"]["Immobilised"];
+                    broken_limits: string[];
+                    risk: components["schemas"]["DriveRisk"];
+                    /** @description At least one rule halts the drive */
+                    stop: components["schemas"]["DrawnShare"];
+                    /** @description null where no draw halts */
+                    worst_halt: null | components["schemas"]["WorstHalt"];
+                    /** @description The wheels dig in before a check halts the drive */
+                    embedding: components["schemas"]["DrawnShare"];
+                    /** @description Mean number of halts until the drive is through, each followed by another sol */
+                    expected_stops: number;
+                    stations: components["schemas"]["Stations"];
                     dynamic?: components["schemas"]["DynamicDrive"];
-                    decision?: components["schemas"]["Decision"];
-                    outcomes?: components["schemas"]["DriveOutcomes"];
-                    position_uncertainty?: components["schemas"]["PositionUncertainty"];
+                    decision: components["schemas"]["Decision"];
+                    outcomes: components["schemas"]["DriveOutcomes"];
+                    position_uncertainty: components["schemas"]["PositionUncertainty"];
+                    start?: components["schemas"]["Waypoint"];
+                    /** @description How the route is driven from start, as POST /v1/checks takes it. The figures are of these commands: a check of them under the same assumptions gives the same */
+                    commands?: components["schemas"]["DriveCommand"][];
                 };
             }[];
         };
@@ -1908,85 +1841,17 @@ export interface components {
         };
         Prediction: {
             /** @constant */
-            format?: "prediction/1";
-            terrain?: string;
-            rover?: string;
-            provenance?: components["schemas"]["Provenance"];
+            format: "prediction/1";
+            terrain: string;
+            rover: string;
+            provenance: components["schemas"]["Provenance"];
             drive_so_far?: components["schemas"]["LearntDrive"];
-            request?: components["schemas"]["PredictionRequest"];
-            summary?: components["schemas"]["DriveFigures"];
-            decision?: components["schemas"]["Decision"];
-            outcomes?: components["schemas"]["DriveOutcomes"];
-            position_uncertainty?: components["schemas"]["PositionUncertainty"];
-            routes?: {
-                /** @constant */
-                type?: "FeatureCollection";
-                crs_name?: string;
-                /** @description What a position holds: map metres of the terrain, not degrees */
-                coordinates?: string;
-                features?: {
-                    /** @constant */
-                    type?: "Feature";
-                    id?: number;
-                    geometry?: null | {
-                        /** @constant */
-                        type?: "LineString";
-                        coordinates?: number[][];
-                    };
-                    properties?: {
-                        /** @constant */
-                        fidelity?: "quasi_static";
-                        /** @description Driven [m] */
-                        length_m?: number;
-                        /** @description Turned in place [deg] */
-                        turned_deg?: number;
-                        /** @description Under the mean soils [s] */
-                        duration_s?: number;
-                        /** @description 95 % of the draws are faster [s] */
-                        duration_p95_s?: number;
-                        /** @description Of the drive motors [Wh] */
-                        energy_wh?: number;
-                        /** @description 95 % of the draws need less [Wh] */
-                        energy_p95_wh?: number;
-                        /** @description Over the length [1] */
-                        mean_slip?: number;
-                        /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
-                        mean_slip_p05?: number;
-                        /** @description Half of the draws have a mean slip below it [1] */
-                        mean_slip_p50?: number;
-                        /** @description 95 % of the draws have a mean slip below it [1] */
-                        mean_slip_p95?: number;
-                        max_slip?: components["schemas"]["Peak"];
-                        max_tilt_deg?: components["schemas"]["Peak"];
-                        max_current_a?: components["schemas"]["Peak"];
-                        max_sinkage_m?: components["schemas"]["Peak"];
-                        /** @description Driven on unknown ground [m] */
-                        unknown_length_m?: number;
-                        immobilised?: null | {
-                            at_m?: number;
-                            x_m?: number;
-                            y_m?: number;
-                            reason?: string;
-                        };
-                        broken_limits?: string[];
-                        /** @description low and high: 90 % Wilson interval */
-                        risk?: {
-                            /** @description Share of draws that break a limit or end immobilised [1] */
-                            value?: number;
-                            low?: number;
-                            high?: number;
-                            immobilised?: number;
-                            draws?: number;
-                            worst_place?: components["schemas"]["Peak"];
-                        };
-                        stop?: components["schemas"]["DrawnShare"];
-                        embedding?: components["schemas"]["DrawnShare"];
-                        expected_stops?: number;
-                        stations?: components["schemas"]["Stations"];
-                        dynamic?: components["schemas"]["DynamicDrive"];
-                    };
-                }[];
-            };
+            request: components["schemas"]["PredictionRequest"];
+            summary: components["schemas"]["DriveFigures"];
+            decision: components["schemas"]["Decision"];
+            outcomes: components["schemas"]["DriveOutcomes"];
+            position_uncertainty: components["schemas"]["PositionUncertainty"];
+            routes: components["schemas"]["DriveRoutes"];
         };
         WheelSweep: {
             /** @constant */
@@ -3181,75 +3046,210 @@ export interface components {
             low: number;
             high: number;
         };
-        /** @description Stops, which cost a sol each, and embeddings, which may cost the rover */
-        DriveOutcomes: {
-            stop?: components["schemas"]["DrawnShare"];
-            embedding?: components["schemas"]["DrawnShare"];
-            completed?: components["schemas"]["DrawnShare"];
-            expected_stops?: components["schemas"]["DrawnShare"];
-            /** @description One, and one more for each expected stop */
-            expected_sols?: number;
+        /** @description 5th, 50th and 95th percentile over the draws */
+        DrawnSpread: {
+            p05: number;
+            p50: number;
+            p95: number;
+        };
+        /**
+         * @description go: every rule is kept. no_go: a rule is broken on the mean soils, or a probability lies above its bar with all of its 90 % interval. unknown: neither can be said
+         * @enum {unknown}
+         */
+        Verdict: "go" | "no_go" | "unknown";
+        /** @description A rule that halts a drive */
+        RuleName: "slip_check" | "tilt" | "pitch" | "roll" | "suspension" | "current" | "sinkage" | "clearance" | "side_slip" | "aside" | "drive_time" | "energy" | "stance" | "immobilised" | "embedding";
+        /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. Of a drive in segments, time and energy begin anew on each */
+        DriveLimits: {
+            /**
+             * @description Largest slip of the rover over a stretch between checks [1]
+             * @default 0.4
+             */
+            max_slip: number;
+            /**
+             * @description Largest tilt of the body [deg]
+             * @default 25
+             */
+            max_tilt_deg: number;
+            /** @description Largest pitch of the body, up or down [deg]; left out: none */
+            max_pitch_deg?: number;
+            /** @description Largest roll of the body, left or right [deg]; left out: none */
+            max_roll_deg?: number;
+            /** @description Largest angle of any rocker or bogie [deg]; left out: none */
+            max_suspension_deg?: number;
+            /**
+             * @description Largest current of any wheel's motor [A]
+             * @default 10
+             */
+            max_current_a: number;
+            /**
+             * @description Largest sinkage of any wheel [m]
+             * @default 0.08
+             */
+            max_sinkage_m: number;
+            /**
+             * @description Least height of the belly above the ground [m]
+             * @default 0
+             */
+            min_clearance_m: number;
+            /**
+             * @description Largest angle between where the rover goes and where it should [deg]
+             * @default 10
+             */
+            max_side_slip_deg: number;
+            /**
+             * @description Largest way to the side between two checks of the slip [m]
+             * @default 2
+             */
+            max_aside_m: number;
+            /** @description Longest driving time of a sol [h]; left out: none */
+            max_drive_h?: number;
+            /** @description Most energy of the drive motors in a sol [Wh]; left out: none */
+            max_energy_wh?: number;
+        };
+        /** @description How the rover watches itself on the way */
+        DriveChecks: {
+            /**
+             * @description Way that the wheels roll between two checks of the slip [m]
+             * @default 5
+             */
+            slip_check_every_m: number;
+            /**
+             * @description Over this slip the wheels dig rather than drive [1]
+             * @default 0.9
+             */
+            embedding_slip: number;
+            /**
+             * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
+             * @default 10
+             */
+            embedding_turns: number;
+            /**
+             * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
+             * @default 0.75
+             */
+            embedding_sinkage_share: number;
+        };
+        /** @description What decides between GO, NO-GO and UNKNOWN */
+        DriveBars: {
+            /**
+             * @description Probability that any rule halts the drive before its end: a GO needs the upper end of its 90 % interval below this
+             * @default 0.2
+             */
+            max_stop: number;
+            /**
+             * @description The same: a NO-GO has the lower end of its 90 % interval above this, which is at least max_stop
+             * @default 0.5
+             */
+            no_go_stop: number;
+            /**
+             * @description Probability that the first halt is where the ground holds the rover: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it
+             * @default 0.01
+             */
+            max_immobilised: number;
+            /**
+             * @description Probability that the wheels dig in before a check halts the drive: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it
+             * @default 0.01
+             */
+            max_embedding: number;
+        };
+        /** @description What the draws say of a rule that has a limit */
+        RuleRisk: {
+            rule: components["schemas"]["RuleName"];
+            /** @description The rule, for people */
+            words: string;
+            /** @description Of limit and values */
+            unit: string;
+            limit: number;
+            /** @description Of each draw's value that comes nearest to the limit */
+            value: components["schemas"]["DrawnSpread"];
+            /** @description The same of the draws in which it trips; left out where it does in none */
+            tripping_value?: components["schemas"]["DrawnSpread"];
+            /** @description Share of the draws in which it trips anywhere on the way, the drive being taken up again after each halt */
+            trips: components["schemas"]["DrawnShare"];
+            /** @description Share of the draws that it halts first */
+            halts: number;
+            /** @description Where it trips in any draw, along the drive [m]; null where it does in none */
+            from_m: number | null;
+            /** @description The end of that [m] */
+            to_m: number | null;
+            /** @description Whose value it most often is; null where it is the rover's */
+            wheel: string | null;
+            /** @description null where it trips in no draw */
+            cause: null | ("climb" | "descent" | "cross_slope" | "soil" | "load" | "rough_ground");
+        };
+        /** @description The rule that halts most draws first, and where it does most often */
+        WorstHalt: {
+            rule: components["schemas"]["RuleName"];
+            /** @description Along the drive [m] */
+            at_m: number;
+        };
+        /** @description On the mean soils: where the drive ends */
+        Immobilised: {
+            at_m?: number;
+            x_m?: number;
+            y_m?: number;
+            reason?: string;
+        };
+        /** @description low and high: 90 % Wilson interval */
+        DriveRisk: {
+            /** @description Share of draws that break a limit or end immobilised [1] */
+            value?: number;
+            low?: number;
+            high?: number;
+            immobilised?: number;
             draws?: number;
+            worst_place?: components["schemas"]["Peak"];
+        };
+        /** @description How the drive ends over the draws. A halt ends it, whichever rule asks for it, and costs a sol; an embedding may cost the rover */
+        DriveOutcomes: {
+            /** @description At least one rule halts the drive, an embedding among them */
+            stop: components["schemas"]["DrawnShare"];
+            /** @description The first halt is where the ground holds the rover */
+            immobilised: components["schemas"]["DrawnShare"];
+            /** @description The wheels dig in before a check halts the drive */
+            embedding: components["schemas"]["DrawnShare"];
+            /** @description The drive comes to its end without a halt */
+            completed: components["schemas"]["DrawnShare"];
+            /** @description Mean number of halts until the drive is through, each followed by another sol; no bar judges it */
+            expected_stops: components["schemas"]["DrawnShare"];
+            /** @description One, or one for each segment, and one more for each expected stop */
+            expected_sols: number;
+            draws: number;
             /** @description Fewer than the draws where drives of the past weigh them */
-            effective_draws?: number;
-            rules?: {
-                /** @enum {unknown} */
-                rule?: "slip_check" | "tilt" | "current" | "sinkage" | "clearance" | "embedding";
-                unit?: string;
-                limit?: number;
-                /** @description Percentiles over the draws of the value that comes nearest to the limit */
-                value?: {
-                    p05?: number;
-                    p50?: number;
-                    p95?: number;
-                };
-                /** @description From the 95th percentile to the limit (of the clearance from the 5th); negative where it is broken */
-                margin?: number;
-                trips?: components["schemas"]["DrawnShare"];
-                from_m?: number | null;
-                to_m?: number | null;
-                wheel?: string | null;
-                /** @enum {unknown} */
-                cause?: "climb" | "descent" | "cross_slope" | "soil" | "load" | "rough_ground";
-            }[];
-            grounds?: {
+            effective_draws: number;
+            /** @description Those that have a limit */
+            rules: components["schemas"]["RuleRisk"][];
+            grounds: {
                 /** @description null: unknown ground */
-                soil?: string | null;
-                length_m?: number;
-                expected_stops?: number;
-                embedding?: number;
+                soil: string | null;
+                length_m: number;
+                /** @description Share of the draws that halt here first; of a drive in segments, of each */
+                expected_stops: number;
+                /** @description Share of the draws that are embedded here */
+                embedding: number;
             }[];
-            stretches?: {
-                from_m?: number;
-                to_m?: number;
-                expected_stops?: number;
-                embedding?: number;
+            stretches: {
+                from_m: number;
+                to_m: number;
+                /** @description Share of the draws that halt here first; of a drive in segments, of each */
+                expected_stops: number;
+                /** @description Share of the draws that are embedded here */
+                embedding: number;
             }[];
-            /** @description Of a drive that is decided in segments, see segment_m of the request: each with its own verdict by the bars of a GO. The whole is a go where all are, and a no-go where one is */
+            /** @description Of a drive that is decided in segments, see segment_m of the request: each with its own verdict. The probabilities are of the draws that come to it; the worst of the segments decide the whole */
             segments?: {
-                from_m?: number;
-                to_m?: number;
-                /** @enum {unknown} */
-                verdict?: "go" | "no_go" | "unknown";
-                /** @description On the segment, of the draws that come to it, with a 90 % interval; high is left out where no draw does */
-                expected_stops?: {
-                    value?: number;
-                    low?: number;
-                    high?: number;
-                };
-                stop?: components["schemas"]["DrawnShare"];
-                embedding?: components["schemas"]["DrawnShare"];
+                from_m: number;
+                to_m: number;
+                verdict: components["schemas"]["Verdict"];
+                stop: components["schemas"]["DrawnShare"];
+                immobilised: components["schemas"]["DrawnShare"];
+                embedding: components["schemas"]["DrawnShare"];
                 /** @description Share of the draws that come to it */
-                reached?: number;
+                reached: number;
             }[];
-            recommended?: {
-                /** @description The greatest tilt that is predicted, and 2 deg */
-                max_tilt_deg?: number;
-                /** @description Where stretches begin on which something goes wrong in more than 1 % of the draws */
-                slip_checks_before_m?: number[];
-            };
             /** @description What a scout drive of 5 m onto the ground that decides, with its slip measured, would be worth; null where no draw goes wrong */
-            scout?: null | {
+            scout: null | {
                 /** @description The ground that decides: on which most goes wrong; null: unknown ground */
                 soil?: string | null;
                 /** @description Along the way [m] */
@@ -3262,46 +3262,93 @@ export interface components {
                 y_m?: number;
                 /** @description With which heading [deg] */
                 yaw_deg?: number;
-                /** @description That it would measure */
-                slip?: {
-                    p05?: number;
-                    p50?: number;
-                    p95?: number;
-                };
-                /** @description On the scout drive itself */
+                /** @description That it would measure [1] */
+                slip?: components["schemas"]["DrawnSpread"];
+                /** @description Of the scout drive itself: probability of a halt */
                 expected_stops?: number;
-                /** @description On the scout drive itself */
+                /** @description Of the scout drive itself: probability of an embedding */
                 embedding?: number;
                 /** @description Probability of each verdict of the bars when the slip has been measured */
                 verdict_afterwards?: {
-                    go?: number;
-                    no_go?: number;
-                    unknown?: number;
+                    go: number;
+                    no_go: number;
+                    unknown: number;
                 };
-                /** @description Expected value of the measurement, in stops: of the better of driving and of turning back, which costs max_expected_stops; an embedding costs max_expected_stops / max_embedding */
+                /** @description Expected value of the measurement in sols: of the better of driving and of not driving, which costs no_go_stop; a halt costs one, an embedding no_go_stop / max_embedding */
                 worth_sols?: number;
             };
         };
+        /** @description The verdict is no_go where any rule says so, else unknown where any rule is open, else go */
         Decision: {
-            /** @enum {unknown} */
-            verdict: "go" | "no_go" | "unknown";
+            verdict: components["schemas"]["Verdict"];
+            /** @description In words and numbers, the one that decides first */
             reasons: string[];
+            /** @description Those that decide first */
+            rules: components["schemas"]["JudgedRule"][];
+            /** @description What would make it better; none of a GO */
+            advice: components["schemas"]["Advice"][];
         };
+        /** @description What one rule says of a drive: the probabilities of a halt, of being immobilised and of embedding, and every limit that breaks on the mean soils */
+        JudgedRule: {
+            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics";
+            verdict: components["schemas"]["Verdict"];
+            /** @description A sentence without its full stop */
+            words: string;
+            /** @description Of value and bars; 1: a probability or a ratio */
+            unit: string;
+            /** @description What is judged: a probability over the draws with its 90 % interval, or the value on the mean soils, whose ends are itself */
+            value: components["schemas"]["DrawnShare"];
+            /** @description Of a limit, the limit */
+            go_below: number;
+            /** @description Of a limit, the limit */
+            no_go_above: number;
+            /** @description Where, along the drive [m]; of a probability of one segment, where the segment begins; left out where it is of the whole drive */
+            at_m?: number;
+        };
+        /** @description A change that another prediction has found to help */
+        Advice: {
+            /** @constant */
+            kind: "shorter_drive";
+            words: string;
+            /** @description Where it ends, along the drive [m] */
+            at_m: number;
+            /** @description That place [m] */
+            x_m: number;
+            /** @description That place [m] */
+            y_m: number;
+        } | {
+            /** @constant */
+            kind: "other_route";
+            words: string;
+            /** @description Its rank */
+            route: number;
+        } | {
+            /** @constant */
+            kind: "scout_drive";
+            words: string;
+            /** @description Where it begins, along the drive [m] */
+            at_m: number;
+            /** @description That place [m] */
+            x_m: number;
+            /** @description That place [m] */
+            y_m: number;
+        };
+        /** @description terrain and rover are required, but where plan names them */
         CheckRequest: {
-            terrain: string;
-            rover: string;
+            terrain?: string;
+            rover?: string;
             /** @description Corners, joined by turns in place and straight drives: two or more. With drive_so_far one is enough: the way leads there from where that drive is now */
             path?: components["schemas"]["Waypoint"][];
             start?: components["schemas"]["Waypoint"];
             /** @description Instead of path, from start with its yaw_deg: each command has exactly one of drive_m, arc_m (with radius_m, positive to the left) and turn_deg */
-            commands?: {
-                drive_m?: number;
-                arc_m?: number;
-                radius_m?: number;
-                turn_deg?: number;
-                /** @default 1 */
-                repeat: number;
-            }[];
+            commands?: components["schemas"]["DriveCommand"][];
+            /** @description Instead of path, start and commands: the job of a plan, of whose route the commands are checked. Terrain, rover and all that the plan assumes of a drive are the plan's; other members of the request stand over these */
+            plan?: string;
+            /**
+             * @description With plan: which of its routes, by rank
+             * @default 1
+             */
+            route: number;
             /** @description A set of rules of the service's data (every_5_m, slip_70): its limits, checks and bars, before those of the request */
             rules?: string;
             /** @description Polygons as rings of [x_m, y_m] in map metres; closed implicitly. A drive that enters one is a no_go */
@@ -3314,70 +3361,9 @@ export interface components {
                 number,
                 number
             ][][];
-            /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
-            limits?: {
-                /**
-                 * @description Largest slip of the rover [1]
-                 * @default 0.4
-                 */
-                max_slip: number;
-                /**
-                 * @description Largest tilt of the body [deg]
-                 * @default 25
-                 */
-                max_tilt_deg: number;
-                /**
-                 * @description Largest current of any wheel's motor [A]
-                 * @default 10
-                 */
-                max_current_a: number;
-                /**
-                 * @description Largest sinkage of any wheel [m]
-                 * @default 0.08
-                 */
-                max_sinkage_m: number;
-                /**
-                 * @description Least height of the belly above the ground [m]
-                 * @default 0
-                 */
-                min_clearance_m: number;
-            };
-            /** @description How the rover watches itself on the way */
-            checks?: {
-                /**
-                 * @description Way that the wheels roll between two checks of the slip [m]
-                 * @default 5
-                 */
-                slip_check_every_m: number;
-                /**
-                 * @description Over this slip the wheels dig rather than drive [1]
-                 * @default 0.9
-                 */
-                embedding_slip: number;
-                /**
-                 * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-                 * @default 10
-                 */
-                embedding_turns: number;
-                /**
-                 * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-                 * @default 0.75
-                 */
-                embedding_sinkage_share: number;
-            };
-            /** @description What decides between GO, NO-GO and UNKNOWN */
-            bars?: {
-                /**
-                 * @description A GO needs the upper end of the interval of embedding below this
-                 * @default 0.01
-                 */
-                max_embedding: number;
-                /**
-                 * @description A GO needs the upper end of the interval of expected stops below this
-                 * @default 0.5
-                 */
-                max_expected_stops: number;
-            };
+            limits?: components["schemas"]["DriveLimits"];
+            checks?: components["schemas"]["DriveChecks"];
+            bars?: components["schemas"]["DriveBars"];
             effects?: {
                 /** @description Of GET /v1/effects */
                 name: string;
@@ -3440,113 +3426,43 @@ export interface components {
         };
         Check: {
             /** @constant */
-            format?: "check/1";
-            terrain?: string;
-            rover?: string;
-            /** @enum {unknown} */
-            verdict?: "go" | "no_go" | "unknown";
-            reasons?: string[];
-            provenance?: components["schemas"]["Provenance"];
+            format: "check/1";
+            terrain: string;
+            rover: string;
+            /** @description The decision's */
+            verdict: components["schemas"]["Verdict"];
+            /** @description The decision's */
+            reasons: string[];
+            decision: components["schemas"]["Decision"];
+            provenance: components["schemas"]["Provenance"];
             drive_so_far?: components["schemas"]["LearntDrive"];
-            request?: components["schemas"]["CheckRequest"];
-            summary?: components["schemas"]["DriveFigures"];
-            outcomes?: components["schemas"]["DriveOutcomes"];
-            position_uncertainty?: components["schemas"]["PositionUncertainty"];
-            routes?: {
-                /** @constant */
-                type?: "FeatureCollection";
-                crs_name?: string;
-                /** @description What a position holds: map metres of the terrain, not degrees */
-                coordinates?: string;
-                features?: {
-                    /** @constant */
-                    type?: "Feature";
-                    id?: number;
-                    geometry?: null | {
-                        /** @constant */
-                        type?: "LineString";
-                        coordinates?: number[][];
-                    };
-                    properties?: {
-                        /** @constant */
-                        fidelity?: "quasi_static";
-                        /** @description Driven [m] */
-                        length_m?: number;
-                        /** @description Turned in place [deg] */
-                        turned_deg?: number;
-                        /** @description Under the mean soils [s] */
-                        duration_s?: number;
-                        /** @description 95 % of the draws are faster [s] */
-                        duration_p95_s?: number;
-                        /** @description Of the drive motors [Wh] */
-                        energy_wh?: number;
-                        /** @description 95 % of the draws need less [Wh] */
-                        energy_p95_wh?: number;
-                        /** @description Over the length [1] */
-                        mean_slip?: number;
-                        /** @description 5 % of the draws have a mean slip below it, over the way to where they are immobilised [1] */
-                        mean_slip_p05?: number;
-                        /** @description Half of the draws have a mean slip below it [1] */
-                        mean_slip_p50?: number;
-                        /** @description 95 % of the draws have a mean slip below it [1] */
-                        mean_slip_p95?: number;
-                        max_slip?: components["schemas"]["Peak"];
-                        max_tilt_deg?: components["schemas"]["Peak"];
-                        max_current_a?: components["schemas"]["Peak"];
-                        max_sinkage_m?: components["schemas"]["Peak"];
-                        /** @description Driven on unknown ground [m] */
-                        unknown_length_m?: number;
-                        immobilised?: null | {
-                            at_m?: number;
-                            x_m?: number;
-                            y_m?: number;
-                            reason?: string;
-                        };
-                        broken_limits?: string[];
-                        /** @description low and high: 90 % Wilson interval */
-                        risk?: {
-                            /** @description Share of draws that break a limit or end immobilised [1] */
-                            value?: number;
-                            low?: number;
-                            high?: number;
-                            immobilised?: number;
-                            draws?: number;
-                            worst_place?: components["schemas"]["Peak"];
-                        };
-                        stop?: components["schemas"]["DrawnShare"];
-                        embedding?: components["schemas"]["DrawnShare"];
-                        expected_stops?: number;
-                        stations?: components["schemas"]["Stations"];
-                        dynamic?: components["schemas"]["DynamicDrive"];
-                    };
-                }[];
-            };
+            request: components["schemas"]["CheckRequest"];
+            summary: components["schemas"]["DriveFigures"];
+            outcomes: components["schemas"]["DriveOutcomes"];
+            position_uncertainty: components["schemas"]["PositionUncertainty"];
+            routes: components["schemas"]["DriveRoutes"];
         };
-        /** @description How far the rover is behind its path where it is commanded by the way that its wheels roll, without a look at where it is: 5th, 50th and 95th percentile over the draws. Heading errors and side slip are not in it */
+        /** @description Where the rover is against its path when it is commanded by the way that its wheels roll, without a look at where it is: behind it by slip, beside it and off its heading by side slip and yaw. 5th, 50th and 95th percentile over the draws */
         PositionUncertainty: {
             /** @description Way that the wheels roll, the length of the path [m] */
-            commanded_m?: number;
-            /** @description At the end [m]; negative where it skids further */
-            shortfall_m?: {
-                p05?: number;
-                p50?: number;
-                p95?: number;
-            };
-            /** @description The largest part of it that comes between two checks of the slip [m] */
-            between_checks_m?: {
-                p05?: number;
-                p50?: number;
-                p95?: number;
-            };
-            stretches?: {
-                from_m?: number;
-                to_m?: number;
-                /** @description When the wheels have rolled to to_m [m] */
-                shortfall_m?: {
-                    p05?: number;
-                    p50?: number;
-                    p95?: number;
-                };
+            commanded_m: number;
+            /** @description Behind the path at the end [m]; negative where it skids further */
+            shortfall_m: components["schemas"]["DrawnSpread"];
+            /** @description To the left of the path at the end [m] */
+            cross_track_m: components["schemas"]["DrawnSpread"];
+            /** @description To the left of the heading of the path at the end [deg] */
+            heading_deg: components["schemas"]["DrawnSpread"];
+            /** @description The largest part of the shortfall that comes between two checks of the slip [m] */
+            between_checks_m: components["schemas"]["DrawnSpread"];
+            stretches: {
+                from_m: number;
+                to_m: number;
+                /** @description Behind the path when the wheels have rolled to to_m [m]; negative where it skids further */
+                shortfall_m: components["schemas"]["DrawnSpread"];
+                /** @description To the left of the path when the wheels have rolled to to_m [m] */
+                cross_track_m: components["schemas"]["DrawnSpread"];
+                /** @description To the left of the heading of the path when the wheels have rolled to to_m [deg] */
+                heading_deg: components["schemas"]["DrawnSpread"];
             }[];
         };
         /** @description The telemetry of a drive under way. The draws of the ground are weighed by how well each goes with the slip (odometry against positions) and the currents of its stretches */
@@ -3600,12 +3516,8 @@ export interface components {
                 come_m?: number;
                 /** @description Measured [1] */
                 slip?: number;
-                /** @description Percentiles over the draws before this stretch was measured */
-                predicted_slip?: {
-                    p05?: number;
-                    p50?: number;
-                    p95?: number;
-                };
+                /** @description Over the draws before this stretch was measured [1] */
+                predicted_slip?: components["schemas"]["DrawnSpread"];
             }[];
         };
         DriveCampaignTaken: {
@@ -3785,70 +3697,9 @@ export interface components {
                 summary?: string;
                 /** @description Where these numbers are documented */
                 source?: string;
-                /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
-                limits?: {
-                    /**
-                     * @description Largest slip of the rover [1]
-                     * @default 0.4
-                     */
-                    max_slip: number;
-                    /**
-                     * @description Largest tilt of the body [deg]
-                     * @default 25
-                     */
-                    max_tilt_deg: number;
-                    /**
-                     * @description Largest current of any wheel's motor [A]
-                     * @default 10
-                     */
-                    max_current_a: number;
-                    /**
-                     * @description Largest sinkage of any wheel [m]
-                     * @default 0.08
-                     */
-                    max_sinkage_m: number;
-                    /**
-                     * @description Least height of the belly above the ground [m]
-                     * @default 0
-                     */
-                    min_clearance_m: number;
-                };
-                /** @description How the rover watches itself on the way */
-                checks?: {
-                    /**
-                     * @description Way that the wheels roll between two checks of the slip [m]
-                     * @default 5
-                     */
-                    slip_check_every_m: number;
-                    /**
-                     * @description Over this slip the wheels dig rather than drive [1]
-                     * @default 0.9
-                     */
-                    embedding_slip: number;
-                    /**
-                     * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-                     * @default 10
-                     */
-                    embedding_turns: number;
-                    /**
-                     * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-                     * @default 0.75
-                     */
-                    embedding_sinkage_share: number;
-                };
-                /** @description What decides between GO, NO-GO and UNKNOWN */
-                bars?: {
-                    /**
-                     * @description A GO needs the upper end of the interval of embedding below this
-                     * @default 0.01
-                     */
-                    max_embedding: number;
-                    /**
-                     * @description A GO needs the upper end of the interval of expected stops below this
-                     * @default 0.5
-                     */
-                    max_expected_stops: number;
-                };
+                limits?: components["schemas"]["DriveLimits"];
+                checks?: components["schemas"]["DriveChecks"];
+                bars?: components["schemas"]["DriveBars"];
             }[];
         };
         Terrain: {
@@ -3954,70 +3805,9 @@ export interface components {
                 number,
                 number
             ][][];
-            /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
-            limits?: {
-                /**
-                 * @description Largest slip of the rover [1]
-                 * @default 0.4
-                 */
-                max_slip: number;
-                /**
-                 * @description Largest tilt of the body [deg]
-                 * @default 25
-                 */
-                max_tilt_deg: number;
-                /**
-                 * @description Largest current of any wheel's motor [A]
-                 * @default 10
-                 */
-                max_current_a: number;
-                /**
-                 * @description Largest sinkage of any wheel [m]
-                 * @default 0.08
-                 */
-                max_sinkage_m: number;
-                /**
-                 * @description Least height of the belly above the ground [m]
-                 * @default 0
-                 */
-                min_clearance_m: number;
-            };
-            /** @description How the rover watches itself on the way */
-            checks?: {
-                /**
-                 * @description Way that the wheels roll between two checks of the slip [m]
-                 * @default 5
-                 */
-                slip_check_every_m: number;
-                /**
-                 * @description Over this slip the wheels dig rather than drive [1]
-                 * @default 0.9
-                 */
-                embedding_slip: number;
-                /**
-                 * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-                 * @default 10
-                 */
-                embedding_turns: number;
-                /**
-                 * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-                 * @default 0.75
-                 */
-                embedding_sinkage_share: number;
-            };
-            /** @description What decides between GO, NO-GO and UNKNOWN */
-            bars?: {
-                /**
-                 * @description A GO needs the upper end of the interval of embedding below this
-                 * @default 0.01
-                 */
-                max_embedding: number;
-                /**
-                 * @description A GO needs the upper end of the interval of expected stops below this
-                 * @default 0.5
-                 */
-                max_expected_stops: number;
-            };
+            limits?: components["schemas"]["DriveLimits"];
+            checks?: components["schemas"]["DriveChecks"];
+            bars?: components["schemas"]["DriveBars"];
             effects?: {
                 /** @description Of GET /v1/effects */
                 name: string;
@@ -4219,6 +4009,15 @@ export interface components {
             verdicts: {
                 [key: string]: number;
             };
+        };
+        /** @description Exactly one of drive_m, arc_m (with radius_m, positive to the left) and turn_deg */
+        DriveCommand: {
+            drive_m?: number;
+            arc_m?: number;
+            radius_m?: number;
+            turn_deg?: number;
+            /** @default 1 */
+            repeat: number;
         };
     };
     responses: never;

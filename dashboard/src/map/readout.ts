@@ -2,7 +2,8 @@
 import { get, type Ground } from "../api/client";
 import { number, share, words } from "../format";
 import { store } from "../state";
-import { riskTitles, valueAt, type RiskMap } from "./risk_map";
+import { riskTitles, valueAt } from "./risk_map";
+import type { RiskMap } from "./risk_types";
 import type { TerrainMap } from "./terrain_map";
 
 let timer = 0;

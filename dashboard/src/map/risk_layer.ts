@@ -3,7 +3,8 @@ import ImageLayer from "ol/layer/Image.js";
 import ImageCanvas from "ol/source/ImageCanvas.js";
 import type Projection from "ol/proj/Projection.js";
 import type { State } from "../state";
-import { riskClasses, type RiskMap } from "./risk_map";
+import { riskClasses } from "./risk_map";
+import type { RiskMap } from "./risk_types";
 import type { Raster } from "./tiff";
 
 const rows_at_once = 128; // coloured in one go: the page answers in between
@@ -11,6 +12,7 @@ const rows_at_once = 128; // coloured in one go: the page answers in between
 interface Painted {
   colours: HTMLCanvasElement;
   unknown: HTMLCanvasElement;
+  under: string; // colour between the lines of the hatching
 }
 
 export type RiskLayer = ImageLayer<ImageCanvas>;
@@ -31,7 +33,7 @@ export function riskLayer(map: RiskMap, state: State, projection: Projection): R
       if (!painted) return target;
       const px = pixelRatio / resolution;
       const box: [number, number, number, number] = [(e.west_m - extent[0]!) * px, (extent[3]! - e.north_m) * px, (e.east_m - e.west_m) * px, (e.north_m - e.south_m) * px];
-      drawHatched(target, painted.unknown, box, pixelRatio);
+      drawHatched(target, painted, box, pixelRatio);
       const context = target.getContext("2d")!;
       context.imageSmoothingEnabled = false;
       context.drawImage(painted.colours, ...box);
@@ -46,21 +48,21 @@ export function riskLayer(map: RiskMap, state: State, projection: Projection): R
 }
 
 /** The hatching is as wide at every zoom. */
-function drawHatched(target: HTMLCanvasElement, mask: HTMLCanvasElement, box: [number, number, number, number], pixelRatio: number): void {
+function drawHatched(target: HTMLCanvasElement, { unknown, under }: Painted, box: [number, number, number, number], pixelRatio: number): void {
   const context = target.getContext("2d")!;
   context.imageSmoothingEnabled = false;
-  context.drawImage(mask, ...box);
+  context.drawImage(unknown, ...box);
   context.globalCompositeOperation = "source-in";
-  context.fillStyle = hatching(context, Math.round(8 * pixelRatio));
+  context.fillStyle = hatching(context, Math.round(8 * pixelRatio), under);
   context.fillRect(0, 0, target.width, target.height);
   context.globalCompositeOperation = "source-over";
 }
 
-function hatching(context: CanvasRenderingContext2D, size: number): CanvasPattern {
+function hatching(context: CanvasRenderingContext2D, size: number, under: string): CanvasPattern {
   const tile = document.createElement("canvas");
   tile.width = tile.height = size;
   const c = tile.getContext("2d")!;
-  c.fillStyle = "#ffffff";
+  c.fillStyle = under;
   c.fillRect(0, 0, size, size);
   c.strokeStyle = "#222222";
   c.lineWidth = size / 4;
@@ -101,5 +103,5 @@ async function paint(map: RiskMap, state: State): Promise<Painted> {
     onUnknown.putImageData(masked, 0, first);
     await new Promise((resolve) => setTimeout(resolve));
   }
-  return { colours, unknown };
+  return { colours, unknown, under: classes.find((c) => c.hatched)?.colour ?? "#ffffff" };
 }

@@ -3,19 +3,9 @@ import { ask, get, submit, type MapDocument } from "../api/client";
 import { follow } from "../api/events";
 import { store, type State } from "../state";
 import { riskRequest, type RiskSettings } from "../panels/request";
-import { readTiff, type Raster } from "./tiff";
-
-export type RiskKind = "slip_best" | "slip_worst" | "slip" | "stop_risk" | "embedding_risk" | "verdict" | "cost_to_go" | "reachable";
-
-export interface RiskMap {
-  kind: RiskKind;
-  job: string;
-  opacity: number;
-  request: string; // as JSON, to know whether it is still what would be asked for
-  progress: number | null; // null: it is there
-  document: MapDocument | null;
-  raster: Raster | null;
-}
+import { verdictColours, verdictWords } from "../result";
+import type { RiskKind, RiskMap } from "./risk_types";
+import { readTiff } from "./tiff";
 
 export const riskTitles: Record<RiskKind, string> = {
   verdict: "Verdict",
@@ -84,8 +74,9 @@ export function removeRiskMap(kind: RiskKind): void {
 export const opacityOf = (kind: RiskKind, opacity: number): void => change(kind, { opacity });
 
 export interface RiskClass {
-  colour: string | null; // null: hatched
+  colour: string | null; // null: black and white
   label: string;
+  hatched?: boolean;
 }
 /** The classes of a map with their colours, and which of them a value is in; -1: nothing is known there. */
 export interface RiskClasses {
@@ -99,16 +90,16 @@ export function riskClasses(document: MapDocument, state: State): RiskClasses {
   const { palette } = state;
   if (document.kind === "verdict" || document.kind === "reachable") {
     const of: Record<string, RiskClass> = {
-      verdict1: { colour: palette[0]!, label: "GO" },
-      verdict2: { colour: palette[1]!, label: "GO in some headings only" },
-      verdict3: { colour: null, label: "UNKNOWN" },
-      verdict4: { colour: palette[3]!, label: "NO-GO" },
+      verdict1: { colour: verdictColours.go, label: verdictWords.go },
+      verdict2: { colour: "#c7e9a0", label: `${verdictWords.go} in some headings only` },
+      verdict3: { colour: verdictColours.unknown, label: verdictWords.unknown, hatched: true },
+      verdict4: { colour: verdictColours.no_go, label: verdictWords.no_go },
       reachable1: { colour: palette[0]!, label: "within the budget" },
-      reachable2: { colour: null, label: "only by a way over unknown ground" },
+      reachable2: { colour: null, label: "only by a way over unknown ground", hatched: true },
       reachable3: { colour: palette[3]!, label: "out of reach" },
     };
     const classes = [1, 2, 3, 4].flatMap((v) => of[document.kind + v] ?? []);
-    return { classes, classOf: (value) => (value >= 1 && value <= classes.length && classes[value - 1]!.colour !== null ? value - 1 : -1) };
+    return { classes, classOf: (value) => (value >= 1 && value <= classes.length && !classes[value - 1]!.hatched ? value - 1 : -1) };
   }
   const bounds = document.kind === "cost_to_go" ? fifths(document) : state.bounds[document.kind.startsWith("slip") ? "slip" : "risk"];
   return {

@@ -17,7 +17,7 @@ import { bodyOf, type Body } from "./body";
 import { DrawnLayer, putAt } from "./drawn_layer";
 import { GapLayer } from "./gap_layer";
 import { riskLayer, type RiskLayer } from "./risk_layer";
-import type { RiskKind, RiskMap } from "./risk_map";
+import type { RiskKind, RiskMap } from "./risk_types";
 import { RoutesLayer } from "./routes_layer";
 import { groundResolution, roundLength, ScaleBar } from "./scale_bar";
 

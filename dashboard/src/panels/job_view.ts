@@ -4,6 +4,7 @@ import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
 import { duration, metres, number, sentence, words } from "../format";
 import { problemView } from "../problem";
+import { verdictWords } from "../result";
 import { store } from "../state";
 import { cancel } from "../work";
 
@@ -20,8 +21,7 @@ export function jobLine(job: Job): string {
 
 /** The best route that a running plan has found until now: dotted on the map. */
 function bestSoFar(best: NonNullable<Job["best_so_far"]>): string {
-  const verdict = best.verdict && { go: "within every limit on the mean soils", caution: "near a limit on the mean soils", no_go: "beyond a limit on the mean soils" }[best.verdict];
-  return `Best so far (dotted): ${metres(best.length_m)}, cost ${number(best.cost)}${verdict ? `, ${verdict}` : ""}`;
+  return `Best so far (dotted): ${metres(best.length_m)}, cost ${number(best.cost)}${best.verdict ? `, ${verdictWords[best.verdict]}` : ""}`;
 }
 
 export function jobView(target: HTMLElement): void {

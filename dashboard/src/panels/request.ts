@@ -1,5 +1,5 @@
 // What is asked for, as the API takes it.
-import type { RiskKind } from "../map/risk_map";
+import type { RiskKind } from "../map/risk_types";
 import { store, type State } from "../state";
 
 /** Limits, checks and bars of the chosen set of rules: plans take them one by one, checks by the set's name. */

@@ -1,7 +1,8 @@
 // Maps of risk of the ground, as layers: which are shown, how strongly, of what they were made, and what their colours mean.
 import { button, field, fill, h, swatch } from "../dom";
 import { number } from "../format";
-import { addRiskMap, opacityOf, removeRiskMap, riskClasses, riskTitles, type RiskKind, type RiskMap } from "../map/risk_map";
+import { addRiskMap, opacityOf, removeRiskMap, riskClasses, riskTitles } from "../map/risk_map";
+import type { RiskKind, RiskMap } from "../map/risk_types";
 import type { TerrainMap } from "../map/terrain_map";
 import { store, type State } from "../state";
 import { keep } from "../work";
@@ -88,5 +89,5 @@ function riskLegend(map: RiskMap, state: State): HTMLElement {
   const asked = document.request;
   return h("div", { "data-risk-legend": map.kind },
     h("p", { class: "hint" }, `${riskTitles[map.kind]}${document.unit && document.unit !== "1" ? `, ${document.unit}` : ""}: ${asked.rover}${asked.heading_deg !== undefined ? `, heading ${number(asked.heading_deg)}°` : ""}${asked.distance_m !== undefined ? `, ${number(asked.distance_m)} m` : ""}${lowest !== undefined && !document.classes ? `; ${number(lowest)} to ${number(highest)}` : ""}`),
-    h("ul", { class: "legend" }, classes.map((c) => h("li", {}, swatch(c.colour), c.label)), classes.some((c) => c.colour === null) ? null : h("li", {}, swatch(null), unknown)));
+    h("ul", { class: "legend" }, classes.map((c) => h("li", {}, swatch(c.colour, c.hatched ? "hatched" : ""), c.label)), classes.some((c) => c.hatched) ? null : h("li", {}, swatch(null), unknown)));
 }

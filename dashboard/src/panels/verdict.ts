@@ -3,27 +3,26 @@ import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
 import { duration, metres, number, sentence, share, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
-import { isAboutRoutes, ruleWords, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
+import { isAboutRoutes, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
 import { store } from "../state";
-import { adviceView } from "./advice";
+import { adviceView, reasonText } from "./advice";
 import { exportsView } from "./exports";
 
 function rulesTable(route: Route, map: TerrainMap): HTMLElement {
   const row = (rule: Rule) => {
-    const trips = rule.trips?.value ?? 0;
-    const show = () => {
-      if (rule.from_m === null) return;
-      map.showStretch(rule.from_m, rule.to_m ?? rule.from_m);
-      store.set({ hover_m: rule.from_m });
-    };
+    const { from_m, to_m } = rule;
     return h(
       "tr",
-      { class: trips > 0 ? "trips" : "" },
-      h("th", { scope: "row" }, sentence(ruleWords[rule.rule] ?? words(rule.rule))),
+      { class: from_m !== null ? "trips" : "" },
+      h("th", { scope: "row" }, sentence(rule.words)),
       h("td", {}, `${number(rule.limit)}${unit(rule.unit)}`),
-      h("td", {}, rule.value ? `${number(rule.value.p50)} (${number(rule.value.p05)} to ${number(rule.value.p95)})` : "–"),
-      h("td", {}, share(trips)),
-      h("td", {}, rule.from_m === null || trips === 0 ? "–" : button(`${rule.from_m.toFixed(1)} to ${rule.to_m?.toFixed(1)} m`, show, { class: "link", title: "Show on the map" })),
+      h("td", {}, nearest(rule)),
+      h("td", {}, share(rule.trips.value)),
+      h("td", {}, share(rule.halts)),
+      h("td", {}, from_m === null ? "–" : button(`${from_m.toFixed(1)} to ${to_m?.toFixed(1)} m`, () => {
+        map.showStretch(from_m, to_m ?? from_m);
+        store.set({ hover_m: from_m });
+      }, { class: "link", title: "Show on the map" })),
       h("td", {}, [rule.cause && words(rule.cause), rule.wheel && `wheel ${rule.wheel}`].filter(Boolean).join(", ") || "–"),
     );
   };
@@ -33,14 +32,13 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Nearest value", "Trips in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
-      h("tbody", {}, route.rules.map(row)),
+      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Nearest value", "Trips in", "Halts first in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
+      h("tbody", {}, route.outcomes.rules.map(row)),
     ),
   );
 }
 
-/** A reason as the service says it, with the names of rules as the page has them. */
-export const reasonText = (reason: string): string => sentence(Object.entries(ruleWords).reduce((text, [name, said]) => text.replaceAll(name, said), reason).replaceAll("_", " "));
+export const nearest = ({ value }: Rule): string => `${number(value.p50)} (${number(value.p05)} to ${number(value.p95)})`;
 
 export const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
 
@@ -48,10 +46,11 @@ export const figures: [string, (r: Route) => number | null | undefined, (v: numb
   ["Length", (r) => r.figures.length_m, metres],
   ["Time under way", (r) => r.figures.duration_s, duration],
   ["Energy, Wh", (r) => r.figures.energy_wh, (v) => number(v)],
-  ["Mean slip", (r) => r.figures.mean_slip_p50, (v) => number(v)],
-  ["Slip, 95 %", (r) => r.figures.mean_slip_p95, (v) => number(v)],
-  ["Stops expected", (r) => r.outcomes.expected_stops?.value ?? r.figures.expected_stops, (v) => number(v)],
-  ["Embedding", (r) => r.outcomes.embedding?.value ?? r.figures.embedding?.value, share],
+  ["Mean slip", (r) => r.figures.mean_slip, (v) => number(v)],
+  ["Mean slip, 95 % below", (r) => r.figures.mean_slip_p95, (v) => number(v)],
+  ["P(stop)", (r) => r.outcomes.stop.value, share],
+  ["P(immobilised)", (r) => r.outcomes.immobilised.value, share],
+  ["P(embedding)", (r) => r.outcomes.embedding.value, share],
   ["On unknown ground", (r) => r.figures.unknown_length_m, metres],
   ["Steepest tilt, deg", (r) => r.figures.max_tilt_deg?.value, (v) => number(v)],
 ];
@@ -120,9 +119,12 @@ function segments(route: Route, map: TerrainMap): HTMLElement | null {
   if (list.length === 0) return null;
   return h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Segments" },
     h("h3", {}, "Segment by segment"),
-    h("table", {}, h("thead", {}, h("tr", {}, ["Segment", "Verdict", "Stops expected", "Embedding", "Reached in"].map((t) => h("th", { scope: "col" }, t)))),
-      h("tbody", {}, list.map((s) => h("tr", {}, h("th", { scope: "row" }, button(`${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`, () => map.showStretch(s.from_m, s.to_m), { class: "link" })), h("td", {}, h("span", { class: `badge ${s.verdict}` }, verdictWords[s.verdict])), h("td", {}, number(s.expected_stops?.value)), h("td", {}, share(s.embedding?.value)), h("td", {}, share(s.reached)))))));
+    h("table", {}, h("thead", {}, h("tr", {}, ["Segment", "Verdict", "P(stop)", "P(immobilised)", "P(embedding)", "Reached in"].map((t) => h("th", { scope: "col" }, t)))),
+      h("tbody", {}, list.map((s) => h("tr", {}, h("th", { scope: "row" }, button(`${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`, () => map.showStretch(s.from_m, s.to_m), { class: "link" })), h("td", {}, h("span", { class: `badge ${s.verdict}` }, verdictWords[s.verdict])), [s.stop.value, s.immobilised.value, s.embedding.value, s.reached].map((v) => h("td", {}, share(v))))))));
 }
+
+/** The probability that decides, beside the verdict. */
+const stopText = ({ outcomes: { stop } }: Route): string => `P(stop) ${share(stop.value)} (${share(stop.low)} to ${share(stop.high)})`;
 
 /** Why there are not as many routes as were asked for. */
 const fewer = ({ fewer: reasons }: Result): HTMLElement | null =>
@@ -143,18 +145,16 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
       !route && h("div", { class: "banner no_go" }, "NO ROUTE"),
       !route && fewer(result),
       route && [
-        h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`)),
+        h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`), route.outcomes.draws > 0 && h("small", { "data-stop": true }, stopText(route))),
         ...adviceView(result, route, map),
-        h("h3", {}, "Why, in full"),
-        h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reasonText(reason)))),
         result.driven.length > 0 && driven(result),
         comparison(result, other),
         fewer(result),
         other && other !== result ? askedDifferently(result, other) : null,
         segments(route, map),
         h("h3", {}, "Rules"),
-        h("p", { class: "hint" }, "The value that comes nearest to the limit: median of the draws of the ground (5 to 95 %)."),
-        route.rules.length > 0 ? rulesTable(route, map) : h("p", {}, "There were no draws of the ground to judge by."),
+        h("p", { class: "hint" }, "The value that comes nearest to the limit: median of the draws of the ground (5 to 95 %). A rule trips wherever its limit is passed on the way; the first to trip halts the drive."),
+        route.outcomes.draws > 0 ? rulesTable(route, map) : h("p", {}, "There were no draws of the ground to judge by."),
         route.notes.length > 0 && h("details", {}, h("summary", {}, "How the plan ranked it"), h("ul", {}, route.notes.map((note) => h("li", {}, note)))),
         exportsView(result, print),
         h("details", {}, h("summary", {}, "Where it comes from"), h("dl", {}, provenance(result).flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)]))),

@@ -1,9 +1,9 @@
 // Series against metres driven, under each other with one cursor, which is also a place on the map.
 import uPlot from "uplot";
 import { fill, h, swatch } from "../dom";
-import { number, share, words } from "../format";
+import { number, share } from "../format";
 import { empty } from "../problem";
-import { ruleWords, tripsOf, type DrivenStretch, type Route, type Stations } from "../result";
+import { tripsOf, type DrivenStretch, type Route, type Stations } from "../result";
 import { store, type State } from "../state";
 import { FollowedCharts } from "./followed_charts";
 import { lineSwatch, paintGround, paintLimits, token, type Painted } from "./painting";
@@ -12,19 +12,24 @@ type Values = (number | null)[];
 interface Chart {
   key: string;
   title: string;
-  line: (s: Stations) => Values;
+  line: (s: Stations, ends_m: number[]) => Values; // of the route's segments
   digits?: number;
   low?: (s: Stations) => Values;
   high?: (s: Stations) => Values;
   second?: { title: string; line: (s: Stations) => Values };
   limit?: string; // key in the request's limits
-  beyond?: string; // and of a second one, behind which it is worse
+  beyond?: { key: string; words: string }; // and of a second one, behind which it is worse
+  both?: boolean; // the limit holds to both sides
   rule?: string; // that trips at it
 }
 
-function summed(values: Values): Values {
-  let sum = 0;
-  return values.map((v) => (sum += v ?? 0));
+/** The sum up to each station; each segment begins anew. */
+function summed(values: Values, { distance_m }: Stations, ends_m: number[]): Values {
+  let [sum, k] = [0, 0];
+  return values.map((v, i) => {
+    while (k < ends_m.length - 1 && distance_m[i]! >= ends_m[k]!) [sum, k] = [0, k + 1];
+    return (sum += v ?? 0);
+  });
 }
 
 function energy(s: Stations): Values {
@@ -34,13 +39,15 @@ function energy(s: Stations): Values {
 
 export const charts: Chart[] = [
   { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
-  { key: "slip", title: "Slip, ratio (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip", beyond: "embedding_slip", rule: "slip_check" },
-  { key: "stops", title: "Stops expected up to here, count", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
-  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding", rule: "embedding" },
+  { key: "slip", title: "Slip, ratio (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip", beyond: { key: "embedding_slip", words: "wheels dig from" }, rule: "slip_check" },
+  { key: "stops", title: "Probability of a halt up to here, share of the draws", line: (s, ends_m) => summed(s.expected_stops, s, ends_m), limit: "max_stop", beyond: { key: "no_go_stop", words: "NO-GO above" } },
+  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s, ends_m) => summed(s.embedding, s, ends_m), limit: "max_embedding", rule: "embedding" },
   { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m", rule: "sinkage" },
   { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a", rule: "current" },
   { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg", rule: "tilt" },
   { key: "clearance", title: "Clearance of the belly, m (band: 5 to 95 % of the draws)", line: (s) => s.clearance_m, low: (s) => s.clearance_m_p05, high: (s) => s.clearance_m_p95, limit: "min_clearance_m", rule: "clearance" },
+  { key: "side_slip", title: "Side slip, deg", line: (s) => s.side_slip_deg, limit: "max_side_slip_deg", rule: "side_slip", both: true },
+  { key: "aside", title: "Way to the side between checks, m (band: 5 to 95 % of the draws)", line: (s) => s.aside_m, low: (s) => s.aside_m_p05, high: (s) => s.aside_m_p95, limit: "max_aside_m", rule: "aside", both: true },
   { key: "attitude", title: "Pitch and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
@@ -54,9 +61,9 @@ const wheelCharts = [
 /** Apart for colour-blind eyes [Okabe and Ito 2008]. */
 const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9"];
 
-function limitsOf(chart: Pick<Chart, "limit" | "beyond">, limits: Record<string, number>): Painted["limits"] {
-  const of = (key: string | undefined, words: string) => (key !== undefined && limits[key] !== undefined ? [{ at: limits[key], words: `${words} ${number(limits[key])}` }] : []);
-  return [...of(chart.limit, chart.limit?.startsWith("min") ? "at least" : "limit"), ...of(chart.beyond, "wheels dig from")];
+function limitsOf({ limit, beyond, both }: Pick<Chart, "limit" | "beyond" | "both">, limits: Record<string, number>): Painted["limits"] {
+  const of = (key: string | undefined, words: string, sign = 1) => (key !== undefined && limits[key] !== undefined ? [{ at: sign * limits[key], words: `${words} ${number(sign * limits[key])}` }] : []);
+  return [...of(limit, limit?.startsWith("min") ? "at least" : limit === "max_stop" ? "GO below" : "limit"), ...(both ? of(limit, "limit", -1) : []), ...of(beyond?.key, beyond?.words ?? "")];
 }
 
 const points = { show: false };
@@ -135,7 +142,7 @@ export class ProfileCharts {
     this.list.replaceChildren();
     for (const chart of wheelCharts) if (this.shown.has(chart.title)) this.addWheels(chart, route.stations, limitsOf(chart, state.result!.limits));
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
-    const tripped = new Set(tripsOf(route).map((rule) => rule.rule));
+    const tripped = new Set<string>(tripsOf(route).map((rule) => rule.rule));
     for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, state.result!.limits);
     this.point(state);
   }
@@ -159,14 +166,15 @@ export class ProfileCharts {
   private add(chart: Chart, route: Route, second: Route | null, limits: Record<string, number>): void {
     const s = route.stations;
     const painted = { limits: limitsOf(chart, limits), trips: tripsOf(route).filter((r) => r.rule === chart.rule) };
-    const limit = painted.limits[0]?.at;
-    const columns: (Values | null)[] = [chart.line(s), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
-    columns.push(second ? resampled(chart.line(second.stations), second.stations.distance_m, s.distance_m) : null);
+    const held = painted.limits.slice(0, chart.both ? 2 : 1).map((l) => l.at);
+    const ends_m = ({ outcomes: { segments } }: Route) => (segments ?? []).map((segment) => segment.to_m);
+    const columns: (Values | null)[] = [chart.line(s, ends_m(route)), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
+    columns.push(second ? resampled(chart.line(second.stations, ends_m(second)), second.stations.distance_m, s.distance_m) : null);
     const given = columns.map((c) => c ?? s.distance_m.map(() => null));
     const readout = h("span", { class: "readout" });
     const box = h("div", { class: "chart" });
     this.list.append(h("section", { class: "chart-box", "aria-label": chart.title }, h("div", { class: "chart-head" }, h("h3", {}, chart.title), readout), box));
-    if (painted.trips.length > 0) box.parentElement!.append(h("p", { class: "visually-hidden" }, painted.trips.map((r) => `${ruleWords[r.rule] ?? words(r.rule)} trips in ${share(r.trips.value)} of the draws from ${number(r.from_m)} to ${number(r.to_m)} m. `).join("")));
+    if (painted.trips.length > 0) box.parentElement!.append(h("p", { class: "visually-hidden" }, painted.trips.map((r) => `${r.words} trips in ${share(r.trips.value)} of the draws from ${number(r.from_m)} to ${number(r.to_m)} m. `).join("")));
     const plot = new uPlot(
       {
         width: Math.max(box.clientWidth, 200),
@@ -175,7 +183,7 @@ export class ProfileCharts {
         cursor: { y: false, sync: { key: "route" }, drag: { x: true, y: false } },
         scales: {
           x: { time: false },
-          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
+          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, ...held), Math.max(max, ...held), 0.08, true) },
         },
         axes: axes(),
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
