@@ -71,23 +71,24 @@ constexpr std::array<const char*, 6> kPairs{
     R"("keep_out":[[[8142535,-276592],[8142537,-276592],[8142537,-276590]]])",
 };
 
-TEST(PlanCommands, OnTheShippedTerrainACheckOfThemGivesTheSameVerdictAndBytes) {
+class PlanCommandsOnGale : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(PlanCommandsOnGale, GiveACheckTheSameVerdictAndBytes) {
   const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
   ASSERT_TRUE(service);
-  for (const char* const places : kPairs) {
-    SCOPED_TRACE(places);
-    const JsonValue plan = parsed(planned(
-        **service, std::string(R"({"terrain":"gale","rover":"msl-class","routes":2,)") + places + "}"));
-    const std::size_t routes = plan.find("summary")->elements.size();
-    ASSERT_GT(routes, 0U) << text_of(plan.find("fewer_because"));
-    for (std::size_t route = 0; route < routes; ++route) {
-      const auto request = json::check_of_route(plan, static_cast<int>(route) + 1);
-      ASSERT_TRUE(request);
-      expect_same_figures(plan, route, parsed(checked(**service, *request)));
-    }
-    EXPECT_EQ(json::check_of_route(plan, 9).error().faults.at(0).pointer, "/route");
+  const JsonValue plan = parsed(planned(
+      **service, std::string(R"({"terrain":"gale","rover":"msl-class","routes":2,)") + GetParam() + "}"));
+  const std::size_t routes = plan.find("summary")->elements.size();
+  ASSERT_GT(routes, 0U) << text_of(plan.find("fewer_because"));
+  for (std::size_t route = 0; route < routes; ++route) {
+    const auto request = json::check_of_route(plan, static_cast<int>(route) + 1);
+    ASSERT_TRUE(request);
+    expect_same_figures(plan, route, parsed(checked(**service, *request)));
   }
+  EXPECT_EQ(json::check_of_route(plan, 9).error().faults.at(0).pointer, "/route");
 }
+
+INSTANTIATE_TEST_SUITE_P(Pairs, PlanCommandsOnGale, ::testing::ValuesIn(kPairs));
 
 constexpr const char* kYardPlan =
     R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":26,"y_m":31},)"

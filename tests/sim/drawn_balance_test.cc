@@ -73,6 +73,11 @@ TEST(DrawnBalance, MoreDrawsGoOnFromThoseSoFarAsIfAllWereAskedForAtOnce) {
   EXPECT_EQ(more.risk, at_once.risk);
   EXPECT_EQ(more.outcomes.expected_stops, at_once.outcomes.expected_stops);
   for (std::size_t d = 0; d < 30; ++d) EXPECT_EQ(more.drawn[d].energy_j, at_once.drawn[d].energy_j) << d;
+  // One that needs fewer than there are is of the first.
+  const DrivePrediction fewer = predict(12, &so_far);
+  EXPECT_EQ(fewer.draws, 12);
+  EXPECT_EQ(fewer.risk, few.risk);
+  EXPECT_EQ(fewer.energy_j_p95, few.energy_j_p95);
   for (std::size_t s = 0; s < path.size(); ++s)
     EXPECT_EQ(more.stations[s].slip_ratio_p95, at_once.stations[s].slip_ratio_p95) << s;
 }

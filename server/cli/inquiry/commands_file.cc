@@ -24,7 +24,7 @@ std::string_view first_key(std::string_view pointer) {
 }
 
 // The value of a pointer whose keys have no escapes, as those of requests.
-bool has(const JsonValue& document, std::string_view pointer) {
+bool holds(const JsonValue& document, std::string_view pointer) {
   const JsonValue* at = &document;
   while (at != nullptr && pointer.starts_with('/')) {
     const std::string_view key = first_key(pointer);
@@ -89,7 +89,7 @@ std::string CommandsFile::place(const std::string& pointer) const {
 Error CommandsFile::placed(Error error, const std::string& given) const {
   const JsonValue over = api::json::parse(given).value();
   for (Fault& fault : error.faults)
-    if (names(first_key(fault.pointer)) && !has(over, fault.pointer)) fault.pointer = place(fault.pointer);
+    if (names(first_key(fault.pointer)) && !holds(over, fault.pointer)) fault.pointer = place(fault.pointer);
   return error;
 }
 
