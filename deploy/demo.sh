@@ -58,7 +58,7 @@ case "$status" in
   0) echo "The best route is GO." ;;
   3) [ -s var/demo-routes.svg ] || fail "there is no plan"
      echo "No route is GO: the best one breaks a limit, for the reasons above." ;;
-  4) echo "The best route is one to be cautious of, for the reasons above." ;;
+  4) echo "The best route is UNKNOWN: what is known of the ground does not decide, for the reasons above." ;;
   *) fail "there is no plan" ;;
 esac
 echo "The routes on the hillshade: var/demo-routes.svg"

@@ -225,9 +225,9 @@ class Planning {
     StageProgress stage(progress_, "ranking", kSimulated, 1.0);
     const auto stations = route_stations(command_motions(first.commands.start, first.commands.steps),
                                          sim::max_station_spacing_m(*problem_.rover));
-    for (auto&& advice :
-         {other_route(plan.routes), shorter_drive(problem_, stations, first.prediction, first.decision, stage),
-          scout_drive(problem_, first.prediction, first.decision)})
+    for (auto&& advice : {other_route(plan.routes),
+                          shorter_drive(problem_, stations, first.prediction, first.decision, stage),
+                          scout_drive(problem_, first.prediction, first.decision)})
       if (advice) first.decision.advice.push_back(*advice);
   }
 

@@ -129,8 +129,7 @@ DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>
                            const Manner& manner, const sim::DrivePrediction& prediction,
                            const DynamicVerification* dynamic, Progress& progress) {
   DriveVerdict verdict = judge_drive(problem, prediction, {.motions = &motions, .dynamic = dynamic});
-  auto shorter =
-      shorter_drive(problem, stations_of(problem, motions, manner), prediction, verdict, progress);
+  auto shorter = shorter_drive(problem, stations_of(problem, motions, manner), prediction, verdict, progress);
   for (auto&& advice : {std::move(shorter), scout_drive(problem, prediction, verdict)})
     if (advice) verdict.advice.push_back(*advice);
   return verdict;

@@ -60,9 +60,8 @@ std::string graduated(const char* attribute, bool lines) {
 }  // namespace
 
 std::string route_style() {
-  const std::vector<std::pair<const char*, const char*>> verdicts{{"go", "26,152,80,255"},
-                                                                  {"unknown", "253,174,97,255"},
-                                                                  {"no_go", "215,48,39,255"}};
+  const std::vector<std::pair<const char*, const char*>> verdicts{
+      {"go", "26,152,80,255"}, {"unknown", "253,174,97,255"}, {"no_go", "215,48,39,255"}};
   std::string categories, symbols;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     categories += fmt::format("   <category value=\"{0}\" symbol=\"{1}\" label=\"{0}\" render=\"true\"/>\n",

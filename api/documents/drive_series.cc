@@ -152,11 +152,12 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   w.metres("at_m", p.worst_place.distance_m).end_object().end_object();
   write_share(w, "stop", p.outcomes.stop);
   w.key("worst_halt");
-  const sim::RuleRisk* const worst = planner::main_halt(p);
-  if (worst != nullptr && worst->station < p.stations.size())
+  const sim::RuleRisk* const rule = planner::main_halt(p);
+  const StationPrediction* const at = planner::worst_station(p);
+  if (rule != nullptr && at != nullptr)
     w.begin_object()
-        .text("rule", sim::describe(worst->rule))
-        .metres("at_m", p.stations[worst->station].station.distance_m)
+        .text("rule", sim::describe(rule->rule))
+        .metres("at_m", at->station.distance_m)
         .end_object();
   else
     w.null();

@@ -43,8 +43,7 @@ void read_bars(ObjectReader& reader, sim::OutcomeBars& bars) {
     object->fault("max_expected_stops",
                   "is no bar any more: max_stop is the probability of a halt below which a drive is a GO, "
                   "no_go_stop the one above which it is a NO-GO");
-  if (bars.no_go_stop < bars.max_stop)
-    object->fault("no_go_stop", "no_go_stop must be at least max_stop");
+  if (bars.no_go_stop < bars.max_stop) object->fault("no_go_stop", "no_go_stop must be at least max_stop");
   object->refuse_unknown();
 }
 

@@ -46,18 +46,19 @@ void add_verdict(ReportPage& page, const JsonValue& check) {
                                                                                  : ReportPage::Tone::kOpen);
   const JsonValue &figures = at(check, "summary"), &outcomes = at(check, "outcomes");
   const long minutes = std::lround(number(figures, "duration_s") / 60.0);
-  page.paragraph(fmt::format(
-      "{:.1f} m in {}:{:02d} h of driving. A halt in {} of the draws, immobilised in {}, embedded in {}, with "
-      "90 % intervals from {:.0f} draws of the ground.",
-      number(figures, "length_m"), minutes / 60, minutes % 60, share_words(at(outcomes, "stop")),
-      share_words(at(outcomes, "immobilised")), share_words(at(outcomes, "embedding")),
-      number(outcomes, "draws")));
+  page.paragraph(
+      fmt::format("{:.1f} m in {}:{:02d} h of driving. A halt in {} of the draws, immobilised in {}, "
+                  "embedded in {}, with "
+                  "90 % intervals from {:.0f} draws of the ground.",
+                  number(figures, "length_m"), minutes / 60, minutes % 60, share_words(at(outcomes, "stop")),
+                  share_words(at(outcomes, "immobilised")), share_words(at(outcomes, "embedding")),
+                  number(outcomes, "draws")));
   for (const JsonValue& reason : at(check, "reasons").elements) page.item(reason.text);
   if (verdict == "go") return;
   page.section("What would change it");
   const auto& advice = at(at(check, "decision"), "advice").elements;
   for (const JsonValue& each : advice) page.item(text(each, "words"));
-  if (advice.empty()) page.item("No shorter drive or scout drive was found to: another way or goal");
+  if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
 }
 
 void add_rules(ReportPage& page, const JsonValue& outcomes) {
@@ -114,7 +115,8 @@ void add_position(ReportPage& page, const JsonValue& check) {
   page.section("Where the rover ends");
   page.item(fmt::format(
       "Commanded by the way its wheels roll and without a look at where it is, the rover ends {} behind the "
-      "end of its {:.1f} m, {} to the left of it and {:.1f} deg ({:.1f} to {:.1f} deg) off its heading. Median "
+      "end of its {:.1f} m, {} to the left of it and {:.1f} deg ({:.1f} to {:.1f} deg) off its heading. "
+      "Median "
       "and 90 % interval",
       spread_words(at(uncertainty, "shortfall_m")), number(uncertainty, "commanded_m"),
       spread_words(at(uncertainty, "cross_track_m")), number(heading, "p50"), number(heading, "p05"),

@@ -14,9 +14,9 @@
 #include "gap/diagnosis/drive_watch.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "planner/drive_so_far_evidence.h"
-#include "planner/problem/verdict.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/route.h"
+#include "planner/problem/verdict.h"
 
 namespace slipway::api {
 

@@ -6,9 +6,20 @@ export function number(value: number | null | undefined, digits = 3): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** A share in percent, as the service writes it in its reasons. */
 export function share(value: number | null | undefined): string {
   if (value === null || value === undefined) return "–";
-  return `${number(100 * value, 2)} %`;
+  const percent = 100 * value;
+  if (percent > 0 && percent < 0.05) return `${number(percent, 2)} %`;
+  return `${evenly(percent, percent > 0 && percent < 10 ? 1 : 0)} %`;
+}
+
+/** Halves to the even neighbour, as the service's own words have them. */
+function evenly(value: number, decimals: number): string {
+  const scaled = value * 10 ** decimals;
+  const below = Math.floor(scaled);
+  const tie = Math.abs(scaled - below - 0.5) < 1e-9;
+  return ((tie ? below + (below % 2) : Math.round(scaled)) / 10 ** decimals).toFixed(decimals);
 }
 
 export function metres(value: number | null | undefined): string {

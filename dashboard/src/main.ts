@@ -120,7 +120,8 @@ store.on(["followed"], ({ followed }) => {
 });
 /** An answer below a long form might not be seen. */
 function bringUp(answer: HTMLElement): void {
-  side.scrollTop += answer.getBoundingClientRect().top - side.getBoundingClientRect().top - 8;
+  if (side.scrollHeight <= side.clientHeight) answer.scrollIntoView();
+  else side.scrollTop += answer.getBoundingClientRect().top - side.getBoundingClientRect().top - 8;
 }
 store.on(["terrains", "terrain"], ({ terrains, terrain }) => {
   if (terrains.length === 0) return;

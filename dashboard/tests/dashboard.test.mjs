@@ -165,7 +165,7 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await p.fill("#panel-check textarea >> nth=0", slopes);
   await p.click('[data-do="check"]');
   assert.equal(await p.verdict(), "no_go");
-  assert.match(await p.textContent(".banner"), /^NO-GOPath, msl-classP\(stop\) \d+ % \(\d+ to \d+ %\)$/);
+  assert.match(await p.textContent(".banner"), /^NO-GOPath, msl-classP\(stop\) \d+ % \(\d+ % to \d+ %\)$/);
   assert.ok((await p.locator('[data-reasons="no_go"] .badge.no_go').count()) > 0, "what says no-go is marked so");
   assert.ok((await p.locator("tr.trips").count()) > 0);
   await p.locator('tr.trips button:text("m")').first().click();

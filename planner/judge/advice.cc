@@ -50,11 +50,11 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
   for (int tried = 0; tried < kMaxTries && length_m >= kMinDrive_m; ++tried, length_m *= 0.5) {
     const std::vector<sim::PathStation> shorter = beginning(path, length_m);
     if (shorter.empty() || shorter.back().distance_m < kMinDrive_m) return std::nullopt;
-    const auto predicted =
-        sim::predict_drive(*problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
-                           problem.beliefs, shorter, problem.limits,
-                           risk_of_drive(problem.risk, shorter.back().distance_m, shorter.size()),
-                           problem.threads, progress, problem.conditions);
+    const auto predicted = sim::predict_drive(
+        *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
+        problem.beliefs, shorter, problem.limits,
+        risk_of_drive(problem.risk, shorter.back().distance_m, shorter.size()), problem.threads, progress,
+        problem.conditions);
     if (!predicted) return std::nullopt;
     if (judge_drive(problem, *predicted).verdict != Verdict::kGo) continue;
     const sim::PathStation& end = shorter.back();
@@ -62,10 +62,10 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
     advice.to_m = end.distance_m;
     advice.x_m = end.pose.x_m;
     advice.y_m = end.pose.y_m;
-    advice.words = fmt::format("end the drive at {:.1f} m, at ({:.1f}, {:.1f}): to there it is a GO, with a halt "
-                               "in {} of {} draws",
-                               advice.to_m, advice.x_m, advice.y_m, percent(predicted->outcomes.stop.share),
-                               predicted->draws);
+    advice.words = fmt::format(
+        "end the drive at {:.1f} m, at ({:.1f}, {:.1f}): to there it is a GO, with a halt "
+        "in {} of {} draws",
+        advice.to_m, advice.x_m, advice.y_m, percent(predicted->outcomes.stop.share), predicted->draws);
     return advice;
   }
   return std::nullopt;
@@ -77,16 +77,17 @@ std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePr
   const sim::OutcomeBars& bars = problem.risk.bars;
   if (verdict.verdict != Verdict::kUnknown || !drive.scout) return std::nullopt;
   const sim::ScoutDrive& scout = *drive.scout;
-  if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding || scout.expected_stops >= bars.no_go_stop)
+  if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding ||
+      scout.expected_stops >= bars.no_go_stop)
     return std::nullopt;
   Advice advice{.kind = Advice::Kind::kScoutDrive};
   advice.to_m = scout.from_m;
   advice.x_m = scout.from.x_m;
   advice.y_m = scout.from.y_m;
-  advice.words = fmt::format("drive {:.0f} m onto the ground at {:.0f} m, at ({:.1f}, {:.1f}), and measure the "
-                             "slip there: that makes it a GO with a probability of {}",
-                             scout.to_m - scout.from_m, scout.from_m, advice.x_m, advice.y_m,
-                             percent(scout.go));
+  advice.words = fmt::format(
+      "drive {:.0f} m onto the ground at {:.0f} m, at ({:.1f}, {:.1f}), and measure the "
+      "slip there: that makes it a GO with a probability of {}",
+      scout.to_m - scout.from_m, scout.from_m, advice.x_m, advice.y_m, percent(scout.go));
   return advice;
 }
 

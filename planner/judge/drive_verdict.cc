@@ -21,8 +21,8 @@ struct JudgedShare {
   double sim::OutcomeBars::*no_go_above;
 };
 constexpr std::array kShares{
-    JudgedShare{"embedding", "embedded", &sim::OutcomeShares::embedding,
-                &sim::OutcomeBars::max_embedding, &sim::OutcomeBars::max_embedding},
+    JudgedShare{"embedding", "embedded", &sim::OutcomeShares::embedding, &sim::OutcomeBars::max_embedding,
+                &sim::OutcomeBars::max_embedding},
     JudgedShare{"immobilised", "immobilised", &sim::OutcomeShares::immobilised,
                 &sim::OutcomeBars::max_immobilised, &sim::OutcomeBars::max_immobilised},
     JudgedShare{"stop", "a halt", &sim::OutcomeShares::stop, &sim::OutcomeBars::max_stop,
@@ -64,9 +64,9 @@ class Judging {
     const KeepOut zones(problem_.keep_out, *problem_.rover, problem_.keep_in);
     if (setting_.motions)
       if (const auto pose = first_hit(zones, *setting_.motions))
-        out_.rules.push_back(
-            forbidden("keep_out", {}, fmt::format("the rover's body would {} at ({:.2f}, {:.2f})",
-                                                  trespass_in_words(problem_), pose->x_m, pose->y_m)));
+        out_.rules.push_back(forbidden("keep_out", {},
+                                       fmt::format("the rover's body would {} at ({:.2f}, {:.2f})",
+                                                   trespass_in_words(problem_), pose->x_m, pose->y_m)));
     if (out_.rules.empty()) keep_areas_sliding(zones);
   }
 
@@ -124,8 +124,8 @@ class Judging {
   void judge_in_motion(const DynamicVerification& dynamic) {
     if (dynamic.refutes()) {
       const bool finished = !dynamic.end || dynamic.end == sim::DriveEnd::kFinished;
-      std::string why = fmt::format("{} at {:.1f} m, {}", end_in_words(dynamic), dynamic.distance_m,
-                                    dynamic.reason);
+      std::string why =
+          fmt::format("{} at {:.1f} m, {}", end_in_words(dynamic), dynamic.distance_m, dynamic.reason);
       if (finished) why = fmt::format("{}", sim::describe(dynamic.broken_limits.front()));
       out_.rules.push_back(forbidden("dynamics", dynamic.distance_m, "driven in motion: " + why));
     } else if (!dynamic.end) {
@@ -141,7 +141,8 @@ class Judging {
 
   // The shares of the whole drive, or of the segment that is judged worst by each.
   void judge_draws() {
-    const bool hangs_on_unknown = bars_.are_passed(drive_.outcomes) && bars_.are_kept(drive_.outcomes.on_known);
+    const bool hangs_on_unknown =
+        bars_.are_passed(drive_.outcomes) && bars_.are_kept(drive_.outcomes.on_known);
     for (const JudgedShare& judged : kShares) {
       const double go_below = bars_.*judged.go_below, no_go_above = bars_.*judged.no_go_above;
       const sim::OutcomeShares* worst = &drive_.outcomes;
@@ -187,6 +188,7 @@ class Judging {
         why += fmt::format("; {}", share_words("a halt", drive_.outcomes.stop, bars_.max_stop,
                                                bars_.no_go_stop, Verdict::kGo));
       if (const std::string nearest = nearest_limit_words(drive_); !nearest.empty()) why += "; " + nearest;
+      std::erase_if(reasons, [](const std::string& words) { return words.starts_with("a halt in "); });
       reasons.insert(reasons.begin(), std::move(why));
     } else if (by_draws && !halts.empty()) {
       reasons.front() += "; " + halts;
@@ -198,9 +200,10 @@ class Judging {
     for (std::string words : {ground_words(problem_, drive_), closure_words(problem_, drive_)})
       if (!words.empty()) reasons.push_back(std::move(words));
     if (drive_.outcomes.unsolved > 0.0)
-      reasons.push_back(fmt::format("in {} of the draws the solver gave up somewhere; upper ends count these "
-                                    "as halted",
-                                    percent(drive_.outcomes.unsolved)));
+      reasons.push_back(
+          fmt::format("in {} of the draws the solver gave up somewhere; upper ends count these "
+                      "as halted",
+                      percent(drive_.outcomes.unsolved)));
   }
 
   const PlanProblem& problem_;

@@ -86,8 +86,10 @@ std::string_view plain_cause(std::string_view cause) {
 
 std::string percent(double share, double bar) {
   const double value = 100.0 * share;
-  if (bar > 0.0 && share > 0.0 && std::abs(share - bar) < 0.1 * bar) return fmt::format("{:.2f} %", value);
-  return value < 10.0 && value > 0.0 ? fmt::format("{:.1f} %", value) : fmt::format("{:.0f} %", value);
+  if (value > 0.0 && value < 0.1) return fmt::format("{:.2g} %", value);
+  const bool near = bar > 0.0 && share > 0.0 && std::abs(share - bar) < 0.1 * bar;
+  const int digits = (near ? 1 : 0) + (value < 10.0 && value > 0.0 ? 1 : 0);
+  return fmt::format("{:.{}f} %", value, digits);
 }
 
 std::string share_words(std::string_view what, const sim::DrawnShare& share, double go_below,
@@ -111,6 +113,13 @@ std::string_view cause_of(const sim::RuleRisk& rule, const sim::DrivePrediction&
   return side > std::abs(climb) ? "cross_slope" : climb > 0.0 ? "climb" : "descent";
 }
 
+const sim::StationPrediction* worst_station(const sim::DrivePrediction& drive) {
+  const auto worst = std::max_element(
+      drive.stations.begin(), drive.stations.end(),
+      [](const sim::StationPrediction& a, const sim::StationPrediction& b) { return a.stops < b.stops; });
+  return worst == drive.stations.end() || worst->stops <= 0.0 ? nullptr : &*worst;
+}
+
 const sim::RuleRisk* main_halt(const sim::DrivePrediction& drive) {
   const auto& rules = drive.outcomes.rules;
   const auto main =
@@ -123,12 +132,10 @@ std::string main_halt_words(const PlanProblem& problem, const sim::DrivePredicti
   const sim::RuleRisk* const main = main_halt(drive);
   if (main == nullptr) return {};
   std::string ground;
-  if (main->station < drive.stations.size()) {
-    const sim::StationPrediction& at = drive.stations[main->station];
-    ground = fmt::format(" on {} at ({:.1f}, {:.1f})",
-                         name_of_ground(problem, drive, at.on_unknown_ground ? std::nullopt : at.soil),
-                         at.station.pose.x_m, at.station.pose.y_m);
-  }
+  if (const sim::StationPrediction* const at = worst_station(drive))
+    ground = fmt::format(", most at {:.1f} m, ({:.1f}, {:.1f}), on {}", at->station.distance_m,
+                         at->station.pose.x_m, at->station.pose.y_m,
+                         name_of_ground(problem, drive, at->on_unknown_ground ? std::nullopt : at->soil));
   return fmt::format("mostly {} {}{}, because of {}", tripping_value(drive, *main),
                      way_words(main->from_m, main->to_m), ground, plain_cause(cause_of(*main, drive)));
 }
@@ -212,8 +219,8 @@ std::vector<std::string> segment_words(const sim::DriveOutcomes& outcomes, const
                       count, go, no_go, count - go - no_go, count + outcomes.expected_stops),
           fmt::format("the worst segment is from {:.0f} to {:.0f} m: a halt in {} of the draws that come "
                       "there, immobilised in {}, embedded in {}",
-                      worst->from_m, worst->to_m, percent(worst->stop.share), percent(worst->immobilised.share),
-                      percent(worst->embedding.share))};
+                      worst->from_m, worst->to_m, percent(worst->stop.share),
+                      percent(worst->immobilised.share), percent(worst->embedding.share))};
 }
 
 }  // namespace slipway::planner

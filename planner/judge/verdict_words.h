@@ -18,6 +18,9 @@ std::string percent(double share, double bar = 0.0);
 std::string share_words(std::string_view what, const sim::DrawnShare& share, double go_below,
                         double no_go_above, Verdict verdict);
 
+// Where most draws halt first; null where none does.
+const sim::StationPrediction* worst_station(const sim::DrivePrediction& drive);
+
 // The rule that halts most draws; null where none does.
 const sim::RuleRisk* main_halt(const sim::DrivePrediction& drive);
 // In words, with its place, wheel, ground and cause; empty where none does.

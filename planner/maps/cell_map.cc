@@ -96,8 +96,7 @@ float CellMap::value_on(const Ground& ground, double gradient_x, double gradient
     worst = range.greatest;
   }
   if (problem_.kind == MapKind::kSlipWorst) return rounded(worst.slip);
-  if (problem_.kind == MapKind::kEmbeddingRisk)
-    return rounded(worst.embedding);
+  if (problem_.kind == MapKind::kEmbeddingRisk) return rounded(worst.embedding);
   return rounded(too_steep ? 1.0 : worst.stop);
 }
 

@@ -13,7 +13,7 @@ namespace slipway::planner {
 namespace {
 
 constexpr double kStep_rad = rad_from_deg(2.5);
-constexpr int kHeadings = 9;              // from straight up to straight down
+constexpr int kHeadings = 7;              // from straight up to straight down
 constexpr double kBeyondTilt_rad = 0.09;  // slopes beyond the limit of tilt that are looked at
 constexpr double kImmobilised = 2.0;      // share of limits
 
@@ -84,16 +84,16 @@ PlaneDrives::PlaneDrives(const PlanProblem& problem, const sim::SoilDistribution
 }
 
 PlaneDrive PlaneDrives::drive_on(double uphill, double leftward) const {
-  constexpr double kSpacing_m = 1.5, kMaxStations = 100.0;
+  constexpr double kSpacing_m = 2.5, kMaxStations = 100.0;
   const Motion ahead{.from = {}, .to = {distance_m_, 0.0, 0.0}, .length_m = distance_m_};
   sim::RiskOptions risk = problem_.risk;
   risk.segment_m = 0.0;
   risk.relief = nullptr;
   NoProgress progress;
-  const auto drive = sim::predict_drive(
-      *problem_.rover, problem_.gravity_m_s2, Plane(uphill, leftward, unknown_), beliefs_,
-      route_stations({ahead}, std::max(kSpacing_m, distance_m_ / kMaxStations)), problem_.limits, risk, 1,
-      progress, problem_.conditions);
+  const auto drive =
+      sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, Plane(uphill, leftward, unknown_), beliefs_,
+                         route_stations({ahead}, std::max(kSpacing_m, distance_m_ / kMaxStations)),
+                         problem_.limits, risk, 1, progress, problem_.conditions);
   if (!drive) return nowhere();
   return {drive->outcomes, share_of_limits(problem_, *drive)};
 }

@@ -66,9 +66,8 @@ FiguresBySlope::FiguresBySlope(const GroundOnSlopes& ground, bool with_risk) {
     for (int k = 0; k < headings; ++k) {
       const double way = 2.0 * std::numbers::pi * k / headings;
       const double uphill = slope * std::cos(way), leftward = slope * std::sin(way);
-      const SlopeFigures at =
-          with_risk ? ground.at(uphill, leftward)
-                    : SlopeFigures{ground.slip_at(uphill, leftward), 0.0, 0.0, 0.0};
+      const SlopeFigures at = with_risk ? ground.at(uphill, leftward)
+                                        : SlopeFigures{ground.slip_at(uphill, leftward), 0.0, 0.0, 0.0};
       const auto widen = [&](double SlopeFigures::*figure) {
         const double value = std::abs(at.*figure);
         range.least.*figure = std::min(range.least.*figure, value);

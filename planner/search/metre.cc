@@ -32,9 +32,13 @@ struct Mishaps {
   double too_deep = 0.0;
 };
 
-double share_of_limits(const sim::DriveLimits& limits, const sim::TableEntry& entry, double tilt_rad) {
+double share_of_limits(const sim::DriveLimits& limits, const sim::TableEntry& entry,
+                       const Attitude& attitude) {
   return std::max({std::abs(entry.slip_ratio) / limits.max_slip_ratio, entry.current_a / limits.max_current_a,
-                   entry.sinkage_m / limits.max_sinkage_m, tilt_rad / limits.max_tilt_rad});
+                   entry.sinkage_m / limits.max_sinkage_m, attitude.tilt_rad() / limits.max_tilt_rad,
+                   std::abs(attitude.pitch_rad) / limits.max_pitch_rad,
+                   std::abs(attitude.roll_rad) / limits.max_roll_rad,
+                   std::abs(entry.side_slip_rad) / limits.max_side_slip_rad});
 }
 
 double embedding_sinkage_m(const PlanProblem& problem) {
@@ -76,12 +80,11 @@ std::optional<Metre> expected_metre(const PlanProblem& problem, const GroundTabl
                   .digging = slip_over(problem.risk.checks.embedding_slip_ratio),
                   .too_deep = probability_over(embedding_sinkage_m(problem), mean.sinkage_m, weak.sinkage_m)};
   mishaps.immobile = std::min(mishaps.immobile, mishaps.over_limit);
-  const double tilt = Attitude{.roll_rad = roll_rad + entry.roll_lean_rad,
-                               .pitch_rad = pitch_rad + entry.pitch_lean_rad,
-                               .yaw_rad = 0.0}
-                          .tilt_rad();
+  const Attitude attitude{.roll_rad = roll_rad + entry.roll_lean_rad,
+                          .pitch_rad = pitch_rad + entry.pitch_lean_rad,
+                          .yaw_rad = 0.0};
   return Metre{figures_with(problem, table, unknown, entry, mishaps),
-               share_of_limits(problem.limits, entry, tilt)};
+               share_of_limits(problem.limits, entry, attitude)};
 }
 
 double tail_cost_of_metre(const PlanProblem& problem, const GroundTable& table, bool unknown,

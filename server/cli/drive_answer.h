@@ -39,8 +39,7 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view, bool why),
-                  ExitStatus (*verdict)(std::string_view),
-                  const std::function<Error(Error)>& placed = {});
+                  ExitStatus (*verdict)(std::string_view), const std::function<Error(Error)>& placed = {});
 
 // The exit status of an answer's verdict; of a plan, of its best route's.
 ExitStatus check_status(std::string_view check);

@@ -97,9 +97,9 @@ StationState DrawnDriver::balance(std::size_t s, const PreparedStation& station,
     run.last_on_means = &*station.on_means;
   }
   StationState state =
-      run.relief
-          ? run.solver.solve(BalanceGeometry(rover_, gravity_m_s2_, station.stance, station.command), run.under)
-          : run.solver.solve(geometries_[s], run.under);
+      run.relief ? run.solver.solve(BalanceGeometry(rover_, gravity_m_s2_, station.stance, station.command),
+                                    run.under)
+                 : run.solver.solve(geometries_[s], run.under);
   if (state.outcome == Outcome::kNotConverged) {
     drawn.unsolved = true;
     return run.last ? *run.last : undisturbed(rover_, station.stance, station.command);

@@ -9,7 +9,8 @@ namespace slipway::sim {
 
 namespace {
 
-// Of a Poisson count so small the mean of which it is the 90th percentile, by Wilson and Hilferty's cube root.
+// Of a Poisson count so small the mean of which it is the 90th percentile, by Wilson and Hilferty's cube
+// root.
 double least_mean(double count) {
   constexpr double kReach80 = 1.2815515655446004;
   if (count <= 0.0) return 0.0;

@@ -20,9 +20,9 @@ struct DriveLimits {
   double max_current_a = 10.0;           // of any wheel's motor
   double max_sinkage_m = 0.08;           // of any wheel
   double min_clearance_m = 0.0;          // of the belly over the ground
-  // Assumed: half of the 20 deg of cross slope at which rovers on sand were seen to slide faster than they
-  // came.
-  double max_side_slip_rad = rad_from_deg(10.0);
+  // Over a stretch between checks. Of Curiosity's stretches of 5 m at Marias Pass 99 % slid by less than 12.7
+  // deg, of those of sols 45 to 582 by less than 2.8 deg (measured by visual odometry, MSL SPICE kernels).
+  double max_side_slip_rad = rad_from_deg(12.0);
   // Way to the side between two checks, each of which tells the rover where it is. Assumed: a rover's width.
   double max_aside_m = 2.0;
   double max_drive_s = kNoLimit;   // of a sol's drive

@@ -32,11 +32,7 @@ DriveEnding DriveOutcome::ending(std::size_t first, std::size_t end) const {
 
 OutcomeFollower::OutcomeFollower(const RoverModel& rover, const DriveLimits& limits, const SlipChecks& checks,
                                  double segment_m)
-    : rover_(rover),
-      limits_(limits),
-      checks_(checks),
-      station_rules_(rover, limits),
-      segment_m_(segment_m) {}
+    : rover_(rover), limits_(limits), checks_(checks), station_rules_(rover, limits), segment_m_(segment_m) {}
 
 double OutcomeFollower::turns_m() const {
   return checks_.embedding_turns * 2.0 * std::numbers::pi * rover_.smallest_wheel_radius_m();
@@ -108,8 +104,7 @@ void OutcomeFollower::budget(const PreparedStation& station, const StationState&
   const Effort effort = effort_of(station, state);
   drive_s_ += effort.duration_s;
   energy_j_ += effort.energy_j;
-  if (std::isfinite(limits_.max_drive_s))
-    watch(row_of(Rule::kDriveTime), drive_s_, limits_.max_drive_s);
+  if (std::isfinite(limits_.max_drive_s)) watch(row_of(Rule::kDriveTime), drive_s_, limits_.max_drive_s);
   if (std::isfinite(limits_.max_energy_j)) watch(row_of(Rule::kEnergy), energy_j_, limits_.max_energy_j);
 }
 
@@ -117,7 +112,8 @@ void OutcomeFollower::budget(const PreparedStation& station, const StationState&
 bool OutcomeFollower::sink(const StationState& state) {
   Measured share;
   for (std::size_t k = 0; k < state.wheels.size(); ++k)
-    if (const double of_radius = state.wheels[k].sinkage_m / rover_.wheels[k].radius_m; of_radius > share.value)
+    if (const double of_radius = state.wheels[k].sinkage_m / rover_.wheels[k].radius_m;
+        of_radius > share.value)
       share = {of_radius, static_cast<int>(k)};
   note(Rule::kEmbedding, share.value, false, share.wheel);
   return share.value <= checks_.embedding_sinkage_share;
@@ -149,26 +145,39 @@ void OutcomeFollower::look_back() {
   const auto height = [&](const Way& at) { return at.come_m - driven * at.rolled_m; };
   const Way& now = way_.back();
   const double stretch_m = checks_.slip_check_every_m, from_m = now.rolled_m - stretch_m;
-  if (from_m < 0.0) {
-    aside_m_ = now.aside_m;
-  } else {
+  Way begin;
+  if (from_m >= 0.0) {
     for (; begin_ + 1 < way_.size() && way_[begin_ + 1].rolled_m <= from_m; ++begin_)
       if (height(way_[begin_ + 1]) > height(best_begin_)) best_begin_ = way_[begin_ + 1];
     const Way &before = way_[begin_], &after = way_[begin_ + 1];
     const double share = (from_m - before.rolled_m) / (after.rolled_m - before.rolled_m);
-    const Way begin{from_m, before.come_m + share * (after.come_m - before.come_m),
-                    before.aside_m + share * (after.aside_m - before.aside_m)};
-    aside_m_ = now.aside_m - begin.aside_m;
-    const auto slip_from = [&](const Way& at) {
-      return 1.0 - (now.come_m - at.come_m) / (now.rolled_m - at.rolled_m);
-    };
-    const double slip = std::max(slip_from(begin), slip_from(best_begin_));
-    constexpr double kRounding = 1e-9;
-    const bool over = slip >= limits_.max_slip_ratio - kRounding;
-    note(Rule::kSlipCheck, slip, over);
-    if (over) halt(Rule::kSlipCheck);
+    begin = {from_m, std::lerp(before.come_m, after.come_m, share),
+             std::lerp(before.aside_m, after.aside_m, share)};
+    if (slips_since(begin, now)) return halt(Rule::kSlipCheck);
   }
-  watch(row_of(Rule::kAside), std::abs(aside_m_), limits_.max_aside_m);
+  slide_since(begin, now);
+}
+
+// Whether the slip since either place, a stretch or more behind, is at or over the limit.
+bool OutcomeFollower::slips_since(const Way& begin, const Way& now) {
+  const auto slip_from = [&](const Way& at) {
+    return 1.0 - (now.come_m - at.come_m) / (now.rolled_m - at.rolled_m);
+  };
+  const double slip = std::max(slip_from(begin), slip_from(best_begin_));
+  constexpr double kRounding = 1e-9;
+  const bool over = slip >= limits_.max_slip_ratio - kRounding;
+  note(Rule::kSlipCheck, slip, over);
+  return over;
+}
+
+// The way to the side, and its angle where it is more than the noise of a look.
+void OutcomeFollower::slide_since(const Way& begin, const Way& now) {
+  constexpr double kMinRolled_m = 1.0;
+  aside_m_ = now.aside_m - begin.aside_m;
+  const double aside_m = std::abs(aside_m_), come_m = now.come_m - begin.come_m;
+  if (now.rolled_m - begin.rolled_m >= kMinRolled_m)
+    watch(row_of(Rule::kSideSlip), std::atan2(aside_m, come_m), limits_.max_side_slip_rad);
+  watch(row_of(Rule::kAside), aside_m, limits_.max_aside_m);
 }
 
 void OutcomeFollower::without_stance(const PreparedStation& station, std::size_t index) {

@@ -231,12 +231,12 @@ class Predictor {
       const RuleTrace& trace = outcome.of(row.rule);
       if (row.rule == Rule::kSlipCheck) {
         if (p.max_slip_ratio.value >= limits_.max_slip_ratio && !p.immobilised)
-          p.broken_limits.push_back({row.rule, p.max_slip_ratio.value, limits_.max_slip_ratio,
-                                     p.max_slip_ratio.distance_m, -1});
+          p.broken_limits.push_back(
+              {row.rule, p.max_slip_ratio.value, limits_.max_slip_ratio, p.max_slip_ratio.distance_m, -1});
       } else if (trace.tripped && (row.limit || row.rule == Rule::kEmbedding)) {
         const double limit = row.limit ? limits_.*row.limit : trace.value;
-        p.broken_limits.push_back({row.rule, trace.value, limit,
-                                   prepared_.stations[trace.station].distance_m, trace.wheel});
+        p.broken_limits.push_back(
+            {row.rule, trace.value, limit, prepared_.stations[trace.station].distance_m, trace.wheel});
       }
     }
   }

@@ -32,9 +32,9 @@ class ShortfallFollower {
   double roll_per_way_ = 1.0;  // of the last part
 };
 
-// How far beside its path a rover comes, and how far from its heading, that is commanded by its wheels without
-// a look at where it is: side slip adds to the way aside, unequal slip left and right to the heading, which
-// in turn leads aside.
+// How far beside its path a rover comes, and how far from its heading, that is commanded by its wheels
+// without a look at where it is: side slip adds to the way aside, unequal slip left and right to the heading,
+// which in turn leads aside.
 class DriftFollower {
  public:
   // The distances along the path at which it is asked for, rising, in metres.

@@ -41,10 +41,6 @@ Measured sinkage(const RoverModel&, const Stance&, const StationState& state) {
   return deepest_sinkage(state);
 }
 
-Measured side_slip(const RoverModel&, const Stance&, const StationState& state) {
-  return {std::abs(state.side_slip_rad)};
-}
-
 constexpr std::array<RuleRow, kRules> kCatalogue{{
     {.rule = Rule::kSlipCheck,
      .name = "slip_check",
@@ -143,14 +139,13 @@ constexpr std::array<RuleRow, kRules> kCatalogue{{
     {.rule = Rule::kSideSlip,
      .name = "side_slip",
      .quantity = "side slip",
-     .words = "angle of side slip",
+     .words = "side slip over a stretch between checks",
      .unit = "deg",
      .factor = kDegrees,
      .limit = &DriveLimits::max_side_slip_rad,
      .key = "max_side_slip_deg",
      .most = 90.0,
-     .help = "angle between where the rover goes and where it should, deg",
-     .at = side_slip},
+     .help = "angle between where the rover goes and where it should, over a stretch between checks, deg"},
     {.rule = Rule::kAside,
      .name = "aside",
      .quantity = "way aside",
@@ -267,9 +262,10 @@ bool StationRules::broken_by(const Stance& stance, const StationState& state, bo
 
 std::vector<BrokenLimit> broken_limits(const DriveExtremes& extremes, const DriveLimits& limits) {
   std::vector<BrokenLimit> broken;
-  for (const auto& [rule, peak] :
-       {std::pair{Rule::kSlipCheck, &extremes.max_slip_ratio}, {Rule::kTilt, &extremes.max_tilt_rad},
-        {Rule::kCurrent, &extremes.max_current_a}, {Rule::kSinkage, &extremes.max_sinkage_m}}) {
+  for (const auto& [rule, peak] : {std::pair{Rule::kSlipCheck, &extremes.max_slip_ratio},
+                                   {Rule::kTilt, &extremes.max_tilt_rad},
+                                   {Rule::kCurrent, &extremes.max_current_a},
+                                   {Rule::kSinkage, &extremes.max_sinkage_m}}) {
     const double limit = limits.*row_of(rule).limit;
     if (row_of(rule).tripped_by(peak->value, limit))
       broken.push_back({rule, peak->value, limit, peak->distance_m});
@@ -288,8 +284,7 @@ Measured largest_current(const StationState& state) {
 Measured deepest_sinkage(const StationState& state) {
   Measured deepest;
   for (std::size_t k = 0; k < state.wheels.size(); ++k)
-    if (state.wheels[k].sinkage_m > deepest.value)
-      deepest = {state.wheels[k].sinkage_m, static_cast<int>(k)};
+    if (state.wheels[k].sinkage_m > deepest.value) deepest = {state.wheels[k].sinkage_m, static_cast<int>(k)};
   return deepest;
 }
 

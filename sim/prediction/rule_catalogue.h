@@ -135,7 +135,11 @@ std::vector<BrokenLimit> broken_limits(const DriveExtremes& extremes, const Driv
 // The maximum current and sinkage over the wheels of a state.
 Measured largest_current(const StationState& state);
 Measured deepest_sinkage(const StationState& state);
-inline double largest_current_a(const StationState& state) { return largest_current(state).value; }
-inline double deepest_sinkage_m(const StationState& state) { return deepest_sinkage(state).value; }
+inline double largest_current_a(const StationState& state) {
+  return largest_current(state).value;
+}
+inline double deepest_sinkage_m(const StationState& state) {
+  return deepest_sinkage(state).value;
+}
 
 }  // namespace slipway::sim

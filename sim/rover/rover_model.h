@@ -124,9 +124,9 @@ struct RoverModel {
       const;  // of each rocker; 0 where the suspension has none, 3 % of the whole where none is given
   double bogie_mass_kg()
       const;  // of each bogie; 0 where the suspension has none, 2 % of the whole where none is given
-  double body_mass_kg() const;  // what wheels, rockers and bogies leave for the body
+  double body_mass_kg() const;     // what wheels, rockers and bogies leave for the body
   double circumscribed_m() const;  // radius of the circle around the body's rectangle
-  double track_m() const;       // widest distance between left and right wheel centres
+  double track_m() const;          // widest distance between left and right wheel centres
 };
 
 // Everything that a model must satisfy before it is used: 3 to kMaxWheels wheels with unique names, each

@@ -103,7 +103,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
   } else if (q.risk > options.accepted_risk || found.slips.size() > 1) {
     answer.verdict = Trafficability::kUnknown;
     words.push_back(
-        fmt::format("caution: slip {:.2f} is within the limit {:.2f}; {:.0f} % of {} soil draws are above "
+        fmt::format("unknown: slip {:.2f} is within the limit {:.2f}; {:.0f} % of {} soil draws are above "
                     "it, {:.0f} % are "
                     "accepted",
                     slip, options.max_slip, 100.0 * q.risk, q.draws, 100.0 * options.accepted_risk));

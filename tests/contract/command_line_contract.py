@@ -33,11 +33,12 @@ class CommandLineContract(WithServer):
         with tempfile.TemporaryDirectory() as folder:
             picture = os.path.join(folder, "routes.svg")
             at = lambda p: f"{p['x_m']},{p['y_m']}"
-            done = subprocess.run([SLIPWAY, "plan", "--url", self.server.url, "--start", at(STOP_967), "--goal", at(STOP_997), "--map", picture],
+            done = subprocess.run([SLIPWAY, "plan", "--url", self.server.url, "--start", at(STOP_967), "--goal", at(STOP_997), "--map", picture, "--why"],
                                   capture_output=True, text=True)
             self.assertIn(done.returncode, VERDICTS, done.stderr)
             self.assertRegex(done.stdout, r"(?m)^1 .* m ")
-            self.assertIn("Route 1: ", done.stdout)
+            self.assertRegex(done.stdout, r"(?m)^(GO|NO-GO|UNKNOWN): .*\n")
+            self.assertIn("Route 1 (proposed by ", done.stdout)
             text = pathlib.Path(picture).read_text()
             self.assertTrue(text.startswith("<svg") and "data:image/png;base64," in text)
         wrong = subprocess.run([SLIPWAY, "plan", "--data", DATA, "--start", "0,0", "--goal", at(STOP_997)], capture_output=True, text=True)
@@ -53,7 +54,7 @@ class CommandLineContract(WithServer):
     def test_a_path_is_driven_at_the_dynamic_level_with_a_dead_wheel(self):
         path = [f"{p['x_m']},{p['y_m']}" for p in (STOP_967, {"x_m": STOP_967["x_m"] - 3.0, "y_m": STOP_967["y_m"]})]
         options = ["--data", DATA, "--path", *path, "--rung", "dynamic", "--failed", "rf=off", "--draws", "4"]
-        shown = answered([SLIPWAY, "predict", *options], text=True).stdout
+        shown = answered([SLIPWAY, "predict", *options, "--why"], text=True).stdout
         self.assertIn("Verified by dynamics", shown)
         self.assertIn("Dynamic less balance", shown)
         document = json.loads(answered([SLIPWAY, "predict", *options, "--json"]).stdout)

@@ -25,7 +25,7 @@ MAY_SEE = {
 # for neighbours that do not see each other. "." is the room itself; a room that is not listed has no folders.
 FOLDERS = {
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
-    "planner": ["problem", "search", {"judge", "maps"}, "."],
+    "planner": ["problem", "search", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "uploads", "requests", "jobs",
             "documents", "terrain_views", "report", "maps", "."],

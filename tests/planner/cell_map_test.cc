@@ -11,8 +11,10 @@
 #include <string_view>
 
 #include "core/angle.h"
+#include "planner/judge/drive_verdict.h"
 #include "planner/maps/cell_ground.h"
 #include "planner/maps/way_map.h"
+#include "planner/predict_path.h"
 #include "planner/search/traverse_map.h"
 #include "tests/planner/ground_fixture.h"
 
@@ -127,8 +129,14 @@ TEST(CellMap, UnknownGroundNeverLooksSafe) {
   EXPECT_GE(at(priced, problem, 22.0, 20.0), 0.001F);
   const std::vector<float> verdict = map_of(problem, {.kind = MapKind::kVerdict});
   EXPECT_EQ(at(verdict, problem, 8.0, 20.0), map_class::kGo);
-  EXPECT_EQ(at(verdict, problem, 22.0, 20.0), map_class::kVerdictUnknown);
   EXPECT_EQ(at(verdict, problem, 35.0, 20.0), map_class::kNoElevation);
+  // Of unmapped ground it says what a check does.
+  NoProgress progress;
+  const auto drive =
+      predict_path(problem, {{22.0, 15.0, std::nullopt}, {22.0, 25.0, std::nullopt}}, progress);
+  ASSERT_TRUE(drive);
+  EXPECT_EQ(at(verdict, problem, 22.0, 20.0) == static_cast<float>(map_class::kGo),
+            judge_drive(problem, *drive).verdict == Verdict::kGo);
   const std::vector<float> unknown = map_of(problem, {.kind = MapKind::kUnknown});
   EXPECT_EQ(at(unknown, problem, 8.0, 20.0), map_class::kKnownGround);
   EXPECT_EQ(at(unknown, problem, 22.0, 20.0), map_class::kUnknownGround);

@@ -99,10 +99,16 @@ TEST(DriveVerdict, SideSlipTakesTheBodyIntoAKeepOutBesideThePath) {
   EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kGo) << "to the other side";
 }
 
+sim::SoilDistribution widened(sim::SoilDistribution soil, double relative) {
+  soil.std = {relative, 0.1 * relative, relative * soil.mean.cohesion_pa,
+              relative * 0.3 * soil.mean.friction_angle_rad, relative};
+  return soil;
+}
+
 PlanProblem plane(double slope_deg, double spread) {
   const double rise = std::tan(rad_from_deg(slope_deg));
   PlanProblem problem = problem_on(60, 60, 1.0, 1.0, [=](double x, double) { return rise * x; });
-  problem.beliefs.known[0] = sim::spread("firm", sim::sandy_loam(), spread);
+  problem.beliefs.known[0] = widened(problem.beliefs.known[0], spread);
   problem.risk.draws = 32;
   problem.risk.max_draws = 400;
   return problem;

@@ -25,7 +25,7 @@ TEST(GalePlan, ClimbsTheScarpBetweenTwoOfCuriositysStopsWithinTheLimits) {
   ASSERT_EQ(plan->routes.size(), 3U) << ::testing::PrintToString(plan->fewer_because);
   // The straight line of 64 m crosses slopes of over 25 deg.
   const Route& best = plan->routes.front();
-  EXPECT_NE(best.verdict, Verdict::kNoGo);
+  EXPECT_NE(best.verdict(), Verdict::kNoGo);
   EXPECT_LT(best.prediction.length_m, 90.0);
   EXPECT_LE(turns_in_place(best), 4);
 }
@@ -39,7 +39,7 @@ TEST(GalePlan, OfAQuarterKilometreHasThreeDifferentSmoothRoutes) {
   ASSERT_TRUE(plan.has_value());
   ASSERT_EQ(plan->routes.size(), 3U);
   for (const Route& route : plan->routes) {
-    EXPECT_NE(route.verdict, Verdict::kNoGo);
+    EXPECT_NE(route.verdict(), Verdict::kNoGo);
     EXPECT_LE(turns_in_place(route), 6);
     EXPECT_LT(route.prediction.max_tilt_rad.value, rad_from_deg(25.0));
   }

@@ -39,7 +39,7 @@ TEST(GridPlanner, IsAskedForByNameAndDrivesMotionsOfTheRover) {
   ASSERT_FALSE(plan.routes.empty());
   for (const Route& route : plan.routes) {
     EXPECT_EQ(route.planner, "grid");
-    EXPECT_NE(route.verdict, Verdict::kNoGo);
+    EXPECT_NE(route.verdict(), Verdict::kNoGo);
     const auto& stations = route.prediction.stations;
     EXPECT_NEAR(stations.back().station.pose.x_m, problem.goal.x_m, 0.05);
     for (const sim::StationPrediction& s : stations)

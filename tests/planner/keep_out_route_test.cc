@@ -110,7 +110,7 @@ TEST_P(KeepOutRoutes, NoStationOfAnyRouteHasTheBodyInAKeepOut) {
   ASSERT_TRUE(plan) << plan.error().detail;
   ASSERT_FALSE(plan->routes.empty()) << plan->fewer_because.at(0);
   for (const Route& route : plan->routes) EXPECT_EQ(places_inside(problem, route), 0) << route.rank;
-  EXPECT_EQ(plan->routes.front().verdict, Verdict::kGo);
+  EXPECT_EQ(plan->routes.front().verdict(), Verdict::kGo);
 }
 
 // Above 500,000 cells a search takes larger ones: a drive of 1.6 km on cells of 1 m is searched at 4 m.

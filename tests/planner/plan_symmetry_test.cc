@@ -51,7 +51,7 @@ const Waypoint kStart{10.0, 12.0, std::nullopt}, kGoal{53.0, 47.0, std::nullopt}
 void expect_same(const Plan& plan, const Plan& other, const char* name) {
   ASSERT_FALSE(plan.routes.empty()) << name;
   ASSERT_FALSE(other.routes.empty()) << name;
-  EXPECT_EQ(plan.routes[0].verdict, other.routes[0].verdict) << name;
+  EXPECT_EQ(plan.routes[0].verdict(), other.routes[0].verdict()) << name;
   EXPECT_NEAR(plan.routes[0].cost, other.routes[0].cost, kSameCost * plan.routes[0].cost) << name;
   EXPECT_NEAR(plan.routes[0].prediction.length_m, other.routes[0].prediction.length_m,
               0.1 * plan.routes[0].prediction.length_m)
@@ -143,7 +143,7 @@ TEST(PlanProperty, WhereTheStraightLineIsWithinEveryLimitThereIsAPlan) {
     ++drivable;
     const Plan plan = plan_on(problem);
     ASSERT_FALSE(plan.routes.empty()) << k << ": " << plan.fewer_because.front();
-    EXPECT_NE(plan.routes[0].verdict, Verdict::kNoGo) << k;
+    EXPECT_NE(plan.routes[0].verdict(), Verdict::kNoGo) << k;
     EXPECT_LT(plan.routes[0].prediction.duration_s, 1.5 * line->duration_s) << k;
   }
   EXPECT_GE(drivable, 4);

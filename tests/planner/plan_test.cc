@@ -45,7 +45,7 @@ TEST(Plan, FindsThreeRoutesThatDifferOnOpenGround) {
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < a; ++b) EXPECT_LE(differences.shared(a, b), kMaxOverlap + 0.02);
   EXPECT_TRUE(plan.fewer_because.empty());
-  EXPECT_EQ(plan.routes.front().verdict, Verdict::kGo);
+  EXPECT_EQ(plan.routes.front().verdict(), Verdict::kGo);
   EXPECT_LE(plan.routes[0].cost, plan.routes[1].cost);
   EXPECT_LT(plan.routes[0].prediction.length_m, 32.0 * 1.03);
 }
@@ -236,7 +236,7 @@ TEST(Plan, OnUnknownGroundAFewDrawsMakeNoGo) {
   problem.risk.bars = {};
   const Plan plan = plan_of(problem);
   ASSERT_FALSE(plan.routes.empty());
-  for (const Route& route : plan.routes) EXPECT_NE(route.verdict, Verdict::kGo);
+  for (const Route& route : plan.routes) EXPECT_NE(route.verdict(), Verdict::kGo);
   EXPECT_NE(plan.routes[0].reasons[0].find("do not decide"), std::string::npos) << plan.routes[0].reasons[0];
 }
 

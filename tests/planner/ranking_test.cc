@@ -201,9 +201,9 @@ TEST(RankedOrder, IsByCostAndWhatBreaksALimitComesLast) {
   routes[0].prediction.length_m = 10.0;  // does not help it
   EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
   // Neither a caution nor a draw of luck changes the order, a broken limit does.
-  routes[2].verdict = Verdict::kCaution;
+  routes[2].decision.verdict = Verdict::kUnknown;
   EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
-  routes[2].verdict = Verdict::kNoGo;
+  routes[2].decision.verdict = Verdict::kNoGo;
   EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{1, 0, 2}));
 }
 
@@ -263,7 +263,7 @@ TEST(RankedPlan, TheCvarIsAtLeastTheMeanAndTheTermsAddUpToWhatRanks) {
       double sum = 0.0;
       for (const CostShare& share : route.shares) sum += share.cost;
       EXPECT_NEAR(sum, route.cost, 1e-9);
-      if (before != nullptr && (before->verdict == Verdict::kNoGo) == (route.verdict == Verdict::kNoGo)) {
+      if (before != nullptr && (before->verdict() == Verdict::kNoGo) == (route.verdict() == Verdict::kNoGo)) {
         EXPECT_GE(route.cost, before->cost);
       }
       before = &route;

@@ -56,7 +56,7 @@ PlanProblem scene(double slope_deg, const Patch& patch, const Ranking& ranking) 
   problem.routes = 2;
   problem.risk.draws = 64;
   // To cross is no NO-GO here, beside which no other would be given out: the scene is of the ranking.
-  problem.risk.bars = {.max_embedding = 1.0, .max_expected_stops = 1000.0};
+  problem.risk.bars = {.max_stop = 1.0, .no_go_stop = 1.0, .max_immobilised = 1.0, .max_embedding = 1.0};
   problem.ranking = ranking;
   // The detour takes some two minutes: crossing pays where these are dear enough against a stop.
   problem.weights.set("duration", 100.0);

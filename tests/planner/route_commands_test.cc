@@ -102,7 +102,7 @@ TEST(GalePlan, ACheckOfARoutesCommandsGivesTheSameFigures) {
   problem.routes = 2;
   problem.risk.draws = kFirstDraws;
   problem.risk.max_draws = 64;
-  problem.risk.bars = {.max_embedding = 0.01, .max_expected_stops = 0.5};
+  problem.risk.bars = {};
   for (const auto& [from_x, from_y, to_x, to_y] : kPairs) {
     problem.start = {from_x, from_y, std::nullopt};
     problem.goal = {to_x, to_y, std::nullopt};

@@ -131,8 +131,9 @@ TEST(VerifyRoute, ALimitThatIsBrokenIsNamedInTheBalancesWords) {
   const auto [balance, dynamic] = driven(problem, kCorner);
   ASSERT_EQ(dynamic.broken_limits.size(), 1U);
   ASSERT_EQ(balance.broken_limits.size(), 1U);
-  EXPECT_TRUE(dynamic.broken_limits[0].starts_with("sinkage 0.0")) << dynamic.broken_limits[0];
-  EXPECT_TRUE(dynamic.broken_limits[0].ends_with(" m, limit 0.001 m")) << dynamic.broken_limits[0];
+  const std::string words = describe(dynamic.broken_limits[0]);
+  EXPECT_TRUE(words.starts_with("sinkage 0.0")) << words;
+  EXPECT_TRUE(words.ends_with(" m, limit 0.001 m")) << words;
   EXPECT_TRUE(dynamic.refutes());
 }
 
@@ -195,7 +196,7 @@ TEST(VerifyRoute, ADriveThatLeavesItsRouteNeitherConfirmsNorRefutesIt) {
   std::vector<Route> routes{route};
   explain(routes);
   EXPECT_TRUE(routes[0].reasons[0].starts_with(
-      "caution: neither confirmed nor refuted by the dynamic simulation: the drive is 1.7"))
+      "UNKNOWN: neither confirmed nor refuted by the drive in motion: the drive is 1.7"))
       << routes[0].reasons[0];
 }
 
@@ -262,7 +263,7 @@ TEST(Verdict, WhatTheDynamicSimulationRefutesIsNoGoAndSaysSo) {
   routes[2].dynamic->end = sim::DriveEnd::kImmobilised;
   routes[2].dynamic->reason = "stuck";
   routes[2].dynamic->distance_m = 2.0;
-  routes[3].dynamic->broken_limits = {"slip 0.5 at 3.0 m, limit 0.4"};
+  routes[3].dynamic->broken_limits = {{sim::Rule::kSlipCheck, 0.5, 0.4, 3.0, -1}};
   for (Route& route : routes) judge(problem, route);
   EXPECT_EQ(routes[0].verdict(), Verdict::kGo);
   EXPECT_EQ(routes[1].verdict(), Verdict::kUnknown);
@@ -270,9 +271,9 @@ TEST(Verdict, WhatTheDynamicSimulationRefutesIsNoGoAndSaysSo) {
   EXPECT_EQ(routes[3].verdict(), Verdict::kNoGo);
   EXPECT_TRUE(ranks_before(routes[0], routes[2]));
   explain(routes);
-  EXPECT_EQ(routes[1].reasons[0], "caution: no answer from the dynamic simulation: the integrator gives up");
-  EXPECT_EQ(routes[2].reasons[0], "no go in the dynamic simulation: immobilised at 2.0 m, stuck");
-  EXPECT_EQ(routes[3].reasons[0], "no go in the dynamic simulation: slip 0.5 at 3.0 m, limit 0.4");
+  EXPECT_EQ(routes[1].reasons[0], "UNKNOWN: no answer from the drive in motion: the integrator gives up");
+  EXPECT_EQ(routes[2].reasons[0], "NO-GO: driven in motion: immobilised at 2.0 m, stuck");
+  EXPECT_EQ(routes[3].reasons[0], "NO-GO: driven in motion: slip 0.5 at 3.0 m, limit 0.4");
 }
 
 TEST(PlanVerified, AsManyOfTheBestRoutesAsAskedForAreDrivenInTheDynamicSimulation) {

@@ -172,3 +172,15 @@ grep -q 'What would change it: drive .* and measure the slip there' "$folder/out
 expect 3 "$slipway" check --data "$data" $level --max-slip 0.001 --json
 grep -q '"worth_sols":' "$folder/out"
 echo "verdicts and exit statuses agree"
+
+# Answers that are read: at most 15 lines, the verdict and its reason first, nothing that contradicts it.
+for command in "check $level" "predict $level" "check $level --max-sinkage-m 0.001" "check $level --max-slip 0.02" \
+  "plan --start 8142640,-276640 --goal 8142632,-276642" "plan --start 8142640,-276640 --goal 8142632,-276642 --max-tilt-deg 4"; do
+  expect verdict "$slipway" $command --data "$data"
+  [ "$(wc -l < "$folder/out")" -le 15 ] || { echo "more than 15 lines of: $command"; cat "$folder/out"; exit 1; }
+  head -1 "$folder/out" | grep -Eq '^(GO|NO-GO|UNKNOWN): ' || { echo "no verdict first: $command"; cat "$folder/out"; exit 1; }
+  for words in 'alike' 'both sides' 'margin' 'caution' 'arrives' 'not converged' 'To be commanded'; do
+    ! grep -q "$words" "$folder/out" || { echo "\"$words\" in: $command"; cat "$folder/out"; exit 1; }
+  done
+  ! { head -1 "$folder/out" | grep -q '^GO' && grep -q 'What would change it' "$folder/out"; }
+done

@@ -223,14 +223,20 @@ TEST_P(DriveOutcomeProperties, ALooserLimitNeverHaltsADriveThatATighterOneLetsTh
                           .max_current_a = 6.0,
                           .max_sinkage_m = 0.05};
   for (const DriveLimits& loose :
-       {DriveLimits{.max_slip_ratio = 0.6, .max_tilt_rad = tight.max_tilt_rad, .max_current_a = 6.0,
-                    .max_sinkage_m = 0.05},
-        DriveLimits{.max_slip_ratio = 0.35, .max_tilt_rad = rad_from_deg(28.0), .max_current_a = 6.0,
-                    .max_sinkage_m = 0.05},
-        DriveLimits{.max_slip_ratio = 0.35, .max_tilt_rad = tight.max_tilt_rad, .max_current_a = 11.0,
-                    .max_sinkage_m = 0.09},
-        DriveLimits{.max_slip_ratio = 1.0, .max_tilt_rad = 1.0, .max_current_a = 100.0,
-                    .max_sinkage_m = 1.0}}) {
+       {DriveLimits{.max_slip_ratio = 0.6,
+       .max_tilt_rad = tight.max_tilt_rad,
+       .max_current_a = 6.0,
+       .max_sinkage_m = 0.05},
+        DriveLimits{.max_slip_ratio = 0.35,
+        .max_tilt_rad = rad_from_deg(28.0),
+        .max_current_a = 6.0,
+        .max_sinkage_m = 0.05},
+        DriveLimits{.max_slip_ratio = 0.35,
+        .max_tilt_rad = tight.max_tilt_rad,
+        .max_current_a = 11.0,
+        .max_sinkage_m = 0.09},
+        DriveLimits{
+            .max_slip_ratio = 1.0, .max_tilt_rad = 1.0, .max_current_a = 100.0, .max_sinkage_m = 1.0}}) {
     if (drive(pieces(), {}, tight).ending().completed()) {
       EXPECT_TRUE(drive(pieces(), {}, loose).ending().completed());
     }

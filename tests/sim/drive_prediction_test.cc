@@ -196,7 +196,8 @@ TEST(DrivePrediction, EveryBrokenLimitIsNamedWithItsPlace) {
 
 // A tilt that only 20 cm of the way have: whatever the length of the path, it is found.
 TEST(DrivePrediction, NoPathPassesAPeakByItsSampling) {
-  const FunctionGround ridge([](double x, double) { return 0.12 * std::exp(-std::pow((x - 7.3) / 0.35, 2)); });
+  const FunctionGround ridge(
+      [](double x, double) { return 0.12 * std::exp(-std::pow((x - 7.3) / 0.35, 2)); });
   double least = 1.0, most = 0.0;
   for (double length = 12.0; length < 12.6; length += 0.07) {
     const auto drive = predict(ridge, kLoam, eastward(length), {}, {.max_tilt_rad = rad_from_deg(4.5)});

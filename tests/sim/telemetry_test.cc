@@ -209,9 +209,9 @@ TEST(Scout, IsWorthMostWhereTheBeliefIsDividedAndTheDriveHangsOnIt) {
   const auto divided = scout_for(0.3);
   ASSERT_TRUE(divided);
   EXPECT_NEAR(divided->to_m - divided->from_m, kScoutLength_m, 0.3);
-  // By hand: turning back costs 0.5, a drive over loam nothing, one over sand the sol that it halts on; so not
-  // knowing costs 0.3. Known, 70 % of the drives are taken and cost nothing, 30 % are not and cost 0.5, but for
-  // the model's error of 5 %.
+  // By hand: turning back costs 0.5, a drive over loam nothing, one over sand the sol that it halts on; so
+  // not knowing costs 0.3. Known, 70 % of the drives are taken and cost nothing, 30 % are not and cost 0.5,
+  // but for the model's error of 5 %.
   EXPECT_NEAR(divided->worth_sols, 0.3 - 0.5 * 0.3, 0.03);
   EXPECT_NEAR(divided->go, 0.7, 0.1);
   EXPECT_NEAR(divided->no_go, 0.3, 0.1);

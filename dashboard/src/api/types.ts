@@ -3093,8 +3093,8 @@ export interface components {
              */
             min_clearance_m: number;
             /**
-             * @description Largest angle between where the rover goes and where it should [deg]
-             * @default 10
+             * @description Largest angle between where the rover goes and where it should, over a stretch between checks of the slip [deg]
+             * @default 12
              */
             max_side_slip_deg: number;
             /**

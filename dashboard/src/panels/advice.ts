@@ -39,7 +39,7 @@ export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLE
   const reason = (text: string) => {
     const rule = rules.find((r) => text.startsWith(r.words));
     const at_m = rule?.at_m;
-    return h("li", {}, rule && verdict !== "go" ? h("span", { class: `badge ${rule.verdict}` }, verdictWords[rule.verdict]) : null, " ", reasonText(text), at_m !== undefined ? button("Show where", () => show(at_m, at_m), { class: "link" }) : null);
+    return h("li", {}, rule && verdict !== "go" ? h("span", { class: `badge ${rule.verdict}` }, verdictWords[rule.verdict]) : null, " ", reasonText(text), at_m !== undefined ? [" ", button("Show where", () => show(at_m, at_m), { class: "link" })] : null);
   };
   return [
     h("h3", {}, verdict === "go" ? "Why it is a GO" : "What keeps it from a GO"),

@@ -17,8 +17,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
       h("th", { scope: "row" }, sentence(rule.words)),
       h("td", {}, `${number(rule.limit)}${unit(rule.unit)}`),
       h("td", {}, nearest(rule)),
-      h("td", {}, share(rule.trips.value)),
-      h("td", {}, share(rule.halts)),
+      h("td", {}, share(rule.trips.value), from_m !== null && h("small", {}, ` first in ${share(rule.halts)}`)),
       h("td", {}, from_m === null ? "–" : button(`${from_m.toFixed(1)} to ${to_m?.toFixed(1)} m`, () => {
         map.showStretch(from_m, to_m ?? from_m);
         store.set({ hover_m: from_m });
@@ -32,7 +31,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Nearest value", "Trips in", "Halts first in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
+      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Nearest value", "Trips in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
       h("tbody", {}, route.outcomes.rules.map(row)),
     ),
   );

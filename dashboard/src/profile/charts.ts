@@ -63,7 +63,7 @@ const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#5
 
 function limitsOf({ limit, beyond, both }: Pick<Chart, "limit" | "beyond" | "both">, limits: Record<string, number>): Painted["limits"] {
   const of = (key: string | undefined, words: string, sign = 1) => (key !== undefined && limits[key] !== undefined ? [{ at: sign * limits[key], words: `${words} ${number(sign * limits[key])}` }] : []);
-  return [...of(limit, limit?.startsWith("min") ? "at least" : limit === "max_stop" ? "GO below" : "limit"), ...(both ? of(limit, "limit", -1) : []), ...of(beyond?.key, beyond?.words ?? "")];
+  return [...of(limit, limit?.startsWith("min") ? "at least" : limit === "max_stop" || limit === "max_embedding" ? "GO below" : "limit"), ...(both ? of(limit, "limit", -1) : []), ...of(beyond?.key, beyond?.words ?? "")];
 }
 
 const points = { show: false };

@@ -64,8 +64,8 @@ TextTable figures_table(const std::string& label) {
 
 // What else is known of each drive, where it is asked for.
 std::string more_figures(const std::vector<std::pair<std::string, const JsonValue*>>& drives) {
-  TextTable table({"route", "cost", "mean slip", "largest slip", "largest tilt", "sinkage", "current",
-                   "unknown ground"});
+  TextTable table(
+      {"route", "cost", "mean slip", "largest slip", "largest tilt", "sinkage", "current", "unknown ground"});
   for (const auto& [label, figures] : drives) {
     const JsonValue& f = *figures;
     table.add({label, f.find("cost") != nullptr ? fmt::format("{:.2f}", number(f, "cost")) : "-",
@@ -176,8 +176,7 @@ std::string advice_lines(const JsonValue& decision) {
   const JsonValue& advice = at(decision, "advice");
   if (text(decision, "verdict") == "go") return {};
   if (advice.elements.empty())
-    return "What would change it: no shorter drive, other route or scout drive was found to; another way or "
-           "goal\n";
+    return "What would change it: another way or another goal; no shorter drive and no scout drive does\n";
   std::string out;
   for (const JsonValue& each : advice.elements)
     out += fmt::format("What would change it: {}\n", text(each, "words"));
@@ -193,7 +192,8 @@ std::string position_line(const JsonValue& document) {
                        number(of, "p95"));
   };
   return fmt::format(
-      "\nWithout a look at where it is, the rover ends {} behind the end of {:.1f} m, {} to the left of it and "
+      "\nWithout a look at where it is, the rover ends {} behind the end of {:.1f} m, {} to the left of it "
+      "and "
       "{} off its heading\n",
       spread("shortfall_m", "m"), number(uncertainty, "commanded_m"), spread("cross_track_m", "m"),
       spread("heading_deg", "deg"));
