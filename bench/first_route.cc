@@ -73,7 +73,7 @@ void count(const PlanProblem& problem, Tally& tally, std::string& line) {
   tally.routes += static_cast<int>(plan->routes.size());
   for (const DriveStep& step : first.commands.steps) tally.turns += step.turn_rad != 0.0 ? 1 : 0;
   line +=
-      fmt::format(" {} {} {:.1f} m cost {:.3f}, {} routes", first.planner, describe(first.decision.decision),
+      fmt::format(" {} {} {:.1f} m cost {:.3f}, {} routes", first.planner, describe(first.decision.verdict),
                   first.prediction.length_m, first.cost, plan->routes.size());
   const bool own = std::any_of(plan->routes.begin(), plan->routes.end(),
                                [&](const Route& other) { return first.cost > kDearer * other.cost; });

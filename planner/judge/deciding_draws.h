@@ -9,7 +9,7 @@ namespace slipway::planner {
 // How many draws of the ground decide a drive where a request does not say it: the first, and the most that
 // are taken until the bars decide. Plans, checks and predictions of one drive take the same draws.
 constexpr int kFirstDraws = 32;
-constexpr int kMostDraws = 400;
+constexpr int kMostDraws = 1000;
 
 // The options with which a drive of this length and number of stations is predicted, whoever asks: from
 // kLongDrive_m on it is decided in segments of kSegment_m where no other length is asked for, and where the

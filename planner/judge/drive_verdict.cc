@@ -50,15 +50,20 @@ class Judging {
     judge_on_means();
     if (setting_.dynamic) judge_in_motion(*setting_.dynamic);
     if (drive_.draws > 0) judge_draws();
-    std::stable_sort(out_.rules.begin(), out_.rules.end(), [](const JudgedRule& a, const JudgedRule& b) {
-      return severity(a.verdict) > severity(b.verdict);
-    });
+    std::stable_sort(out_.rules.begin(), out_.rules.end(), decides_before);
     out_.verdict = out_.rules.empty() ? Verdict::kGo : out_.rules.front().verdict;
     say_why();
     return std::move(out_);
   }
 
  private:
+  // The more severe; what is certain before what is likely; of probabilities the one furthest beyond its bar.
+  static bool decides_before(const JudgedRule& a, const JudgedRule& b) {
+    if (a.verdict != b.verdict) return severity(a.verdict) > severity(b.verdict);
+    if (a.over_draws != b.over_draws) return b.over_draws;
+    return a.over_draws && a.value / a.no_go_above > b.value / b.no_go_above;
+  }
+
   void keep_areas() {
     if (problem_.keep_out.empty() && problem_.keep_in.empty()) return;
     const KeepOut zones(problem_.keep_out, *problem_.rover, problem_.keep_in);
@@ -180,8 +185,6 @@ class Judging {
       if (rule.verdict == Verdict::kGo && out_.verdict != Verdict::kGo) break;
       reasons.push_back(rule.words);
     }
-    const std::string halts = main_halt_words(problem_, drive_);
-    const bool by_draws = !out_.rules.empty() && out_.rules.front().over_draws;
     if (out_.verdict == Verdict::kGo) {
       std::string why = fmt::format("every limit holds on the mean soils");
       if (drive_.draws > 0)
@@ -190,8 +193,9 @@ class Judging {
       if (const std::string nearest = nearest_limit_words(drive_); !nearest.empty()) why += "; " + nearest;
       std::erase_if(reasons, [](const std::string& words) { return words.starts_with("a halt in "); });
       reasons.insert(reasons.begin(), std::move(why));
-    } else if (by_draws && !halts.empty()) {
-      reasons.front() += "; " + halts;
+    } else if (const sim::RuleRisk* const rule = behind(out_.rules.front())) {
+      reasons.front() += fmt::format("; {}{}", rule == main_halt(drive_) ? "mostly " : "",
+                                     halt_words(problem_, drive_, *rule));
     }
     if (drive_.draws == 0) return;
     if (!drive_.outcomes.segments.empty())
@@ -204,6 +208,17 @@ class Judging {
           fmt::format("in {} of the draws the solver gave up somewhere; upper ends count these "
                       "as halted",
                       percent(drive_.outcomes.unsolved)));
+  }
+
+  // The rule that makes a probability what it is; null where no draw shows one.
+  const sim::RuleRisk* behind(const JudgedRule& judged) const {
+    if (!judged.over_draws) return nullptr;
+    if (judged.name == "stop") return main_halt(drive_);
+    const auto& rules = drive_.outcomes.rules;
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const sim::RuleRisk& each) {
+      return sim::describe(each.rule) == judged.name;
+    });
+    return rule == rules.end() || rule->trips.share <= 0.0 ? nullptr : &*rule;
   }
 
   const PlanProblem& problem_;

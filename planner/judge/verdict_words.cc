@@ -95,9 +95,12 @@ std::string percent(double share, double bar) {
 std::string share_words(std::string_view what, const sim::DrawnShare& share, double go_below,
                         double no_go_above, Verdict verdict) {
   const double bar = verdict == Verdict::kNoGo ? no_go_above : go_below;
-  std::string bars = verdict == Verdict::kNoGo ? fmt::format("NO-GO above {}", percent(no_go_above))
-                                               : fmt::format("GO below {}", percent(go_below));
-  return fmt::format("{} in {} of the draws (90 % interval {} to {}), {}", what, percent(share.share, bar),
+  std::string bars = fmt::format(", GO below {}", percent(go_below));
+  if (verdict == Verdict::kNoGo) bars = fmt::format(", NO-GO above {}", percent(no_go_above));
+  if (verdict == Verdict::kUnknown)
+    bars = fmt::format(", which do not decide: GO below {}, NO-GO above {}", percent(go_below),
+                       percent(no_go_above));
+  return fmt::format("{} in {} of the draws (90 % interval {} to {}){}", what, percent(share.share, bar),
                      percent(share.low, bar), percent(share.high, bar), bars);
 }
 
@@ -128,16 +131,19 @@ const sim::RuleRisk* main_halt(const sim::DrivePrediction& drive) {
   return main == rules.end() || main->halts <= 0.0 ? nullptr : &*main;
 }
 
-std::string main_halt_words(const PlanProblem& problem, const sim::DrivePrediction& drive) {
-  const sim::RuleRisk* const main = main_halt(drive);
-  if (main == nullptr) return {};
-  std::string ground;
-  if (const sim::StationPrediction* const at = worst_station(drive))
-    ground = fmt::format(", most at {:.1f} m, ({:.1f}, {:.1f}), on {}", at->station.distance_m,
-                         at->station.pose.x_m, at->station.pose.y_m,
-                         name_of_ground(problem, drive, at->on_unknown_ground ? std::nullopt : at->soil));
-  return fmt::format("mostly {} {}{}, because of {}", tripping_value(drive, *main),
-                     way_words(main->from_m, main->to_m), ground, plain_cause(cause_of(*main, drive)));
+std::string halt_words(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                       const sim::RuleRisk& rule) {
+  const bool is_main = &rule == main_halt(drive);
+  const sim::StationPrediction* at = is_main ? worst_station(drive) : nullptr;
+  if (at == nullptr && rule.station < drive.stations.size()) at = &drive.stations[rule.station];
+  const std::string ground =
+      at == nullptr
+          ? std::string()
+          : fmt::format(", most at {:.1f} m, ({:.1f}, {:.1f}), on {}", at->station.distance_m,
+                        at->station.pose.x_m, at->station.pose.y_m,
+                        name_of_ground(problem, drive, at->on_unknown_ground ? std::nullopt : at->soil));
+  return fmt::format("{} {}{}, because of {}", tripping_value(drive, rule), way_words(rule.from_m, rule.to_m),
+                     ground, plain_cause(cause_of(rule, drive)));
 }
 
 std::vector<std::string> tripping_words(const sim::DrivePrediction& drive) {

@@ -23,8 +23,10 @@ const sim::StationPrediction* worst_station(const sim::DrivePrediction& drive);
 
 // The rule that halts most draws; null where none does.
 const sim::RuleRisk* main_halt(const sim::DrivePrediction& drive);
-// In words, with its place, wheel, ground and cause; empty where none does.
-std::string main_halt_words(const PlanProblem& problem, const sim::DrivePrediction& drive);
+
+// A rule that trips in some draw: by how much then, where, on which ground and why.
+std::string halt_words(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                       const sim::RuleRisk& rule);
 
 // "climb", "descent", "cross_slope", "soil", "load" or "rough_ground": what makes a rule's value what it is
 // where it comes nearest to its limit.

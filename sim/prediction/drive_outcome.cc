@@ -143,7 +143,7 @@ bool OutcomeFollower::roll(const PreparedStation& station, const StationState& s
 void OutcomeFollower::look_back() {
   const double driven = 1.0 - limits_.max_slip_ratio;
   const auto height = [&](const Way& at) { return at.come_m - driven * at.rolled_m; };
-  const Way& now = way_.back();
+  const Way now = way_.back();  // a halt begins the way anew
   const double stretch_m = checks_.slip_check_every_m, from_m = now.rolled_m - stretch_m;
   Way begin;
   if (from_m >= 0.0) {
@@ -154,8 +154,12 @@ void OutcomeFollower::look_back() {
     begin = {from_m, std::lerp(before.come_m, after.come_m, share),
              std::lerp(before.aside_m, after.aside_m, share)};
     if (slips_since(begin, now)) return halt(Rule::kSlipCheck);
+    const double slid = std::atan2(std::abs(now.aside_m - begin.aside_m), now.come_m - begin.come_m);
+    watch(row_of(Rule::kSideSlip), slid, limits_.max_side_slip_rad);
   }
-  slide_since(begin, now);
+  // A halt for the side slip was a look: the way aside begins anew.
+  aside_m_ = way_.size() > 1 ? now.aside_m - begin.aside_m : 0.0;
+  watch(row_of(Rule::kAside), std::abs(aside_m_), limits_.max_aside_m);
 }
 
 // Whether the slip since either place, a stretch or more behind, is at or over the limit.
@@ -168,16 +172,6 @@ bool OutcomeFollower::slips_since(const Way& begin, const Way& now) {
   const bool over = slip >= limits_.max_slip_ratio - kRounding;
   note(Rule::kSlipCheck, slip, over);
   return over;
-}
-
-// The way to the side, and its angle where it is more than the noise of a look.
-void OutcomeFollower::slide_since(const Way& begin, const Way& now) {
-  constexpr double kMinRolled_m = 1.0;
-  aside_m_ = now.aside_m - begin.aside_m;
-  const double aside_m = std::abs(aside_m_), come_m = now.come_m - begin.come_m;
-  if (now.rolled_m - begin.rolled_m >= kMinRolled_m)
-    watch(row_of(Rule::kSideSlip), std::atan2(aside_m, come_m), limits_.max_side_slip_rad);
-  watch(row_of(Rule::kAside), aside_m, limits_.max_aside_m);
 }
 
 void OutcomeFollower::without_stance(const PreparedStation& station, std::size_t index) {

@@ -99,7 +99,6 @@ class OutcomeFollower {
   bool roll(const PreparedStation& station, const StationState& state);
   void look_back();
   bool slips_since(const Way& begin, const Way& now);
-  void slide_since(const Way& begin, const Way& now);
   double turns_m() const;  // way that the wheels roll while they dig in
   double way_to_halt_m() const { return (1.0 + limits_.max_slip_ratio) * checks_.slip_check_every_m; }
 

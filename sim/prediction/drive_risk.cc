@@ -47,6 +47,15 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
   return !progress.cancelled();
 }
 
+// The probability of a halt lies between its bars, on the way or on a segment: more draws make no GO of it.
+bool stays_open(const OutcomeBars& bars, const DriveOutcomes& outcomes) {
+  const auto is_between = [&](const OutcomeShares& shares) {
+    return shares.stop.low > bars.max_stop && shares.stop.high < bars.no_go_stop;
+  };
+  if (outcomes.segments.empty()) return is_between(outcomes);
+  return std::any_of(outcomes.segments.begin(), outcomes.segments.end(), is_between);
+}
+
 }  // namespace
 
 Effort effort_of(const PreparedStation& station, const StationState& state) {
@@ -106,7 +115,8 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
       return false;
     }
     summarise(drives, drive.stations, limits, options, prediction);
-  } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
+  } while (drives.size() < most && !options.bars.decide(prediction.outcomes) &&
+           !stays_open(options.bars, prediction.outcomes));
 
   prediction.scout = scout_drive(drives, drive.stations, beliefs, prediction.outcomes, options.bars);
   if (!drive.stations.empty())

@@ -13,7 +13,7 @@ namespace {
 // The first and last slip that has a bin of its own between the open ones at the ends.
 constexpr double kLowestSlip = -0.3, kHighestSlip = 1.1;
 // As many as a check takes at most.
-constexpr double kDrawsAfterwards = 400.0;
+constexpr double kDrawsAfterwards = 1000.0;
 // Of the ground that decides: as many sections are looked at.
 constexpr std::size_t kMaxSections = 4;
 

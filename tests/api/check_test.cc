@@ -92,7 +92,7 @@ TEST(Check, AnArcEndsWhereItsRadiusLeads) {
 
 TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
   const std::string lenient =
-      R"(,"bars":{"max_embedding":1,"max_immobilised":1,"max_stop":1,"no_go_stop":1})";
+      R"(,"bars":{"max_embedding":1,"max_immobilised":1,"max_stop":1,"no_go_stop":1},"limits":{"max_slip":1})";
   const auto with = [&](const std::string& zones) { return kMer.checked(kPath + lenient + zones); };
   const auto free = with("");
   ASSERT_TRUE(free) << free.error().detail;
