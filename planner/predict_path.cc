@@ -135,6 +135,11 @@ DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>
   return verdict;
 }
 
+void watch_as_past_drives(sim::DriveLimits& limits, sim::SlipChecks& checks) {
+  limits.max_side_slip_rad = limits.max_aside_m = sim::kNoLimit;
+  checks.slip_check_every_m = std::min(checks.slip_check_every_m, kPastLook_m);
+}
+
 Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                              const sim::PastDriveReport& report, Progress& progress,
                              std::vector<sim::ConditionedDraw>& draws) {
@@ -142,9 +147,11 @@ Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypo
   // Slip checks average over metres: every third station does.
   const auto stations =
       route_stations(join(corners, {}).motions, 3.0 * sim::max_station_spacing_m(*problem.rover));
-  return sim::condition_draws(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
-                              problem.limits, problem.risk, report, problem.threads, progress, draws,
-                              problem.conditions);
+  sim::DriveLimits limits = problem.limits;
+  sim::RiskOptions risk = problem.risk;
+  watch_as_past_drives(limits, risk.checks);
+  return sim::condition_draws(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations, limits,
+                              risk, report, problem.threads, progress, draws, problem.conditions);
 }
 
 Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,

@@ -32,6 +32,11 @@ DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>
                            const Manner& manner, const sim::DrivePrediction& prediction,
                            const DynamicVerification* dynamic, Progress& progress);
 
+// How drives of the past in a terrain's table were watched: Curiosity looks at its slip after each step of
+// about a metre, and was not halted for sliding aside.
+inline constexpr double kPastLook_m = 1.0;
+void watch_as_past_drives(sim::DriveLimits& limits, sim::SlipChecks& checks);
+
 // Conditions draws of the ground on a drive of the past along a path, the problem's rover having driven it by
 // the problem's limits; see sim::condition_draws(). Errors as predict_path().
 Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypoint>& corners,

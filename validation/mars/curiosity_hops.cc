@@ -5,6 +5,7 @@
 
 #include "api/files/drive_outcomes.h"
 #include "api/service.h"
+#include "planner/predict_path.h"
 #include "core/progress.h"
 #include "validation/mars/comparisons.h"
 
@@ -63,6 +64,7 @@ Result<Predicted> predicted(const api::Service& service, const Hop& hop, std::op
   request.path = hop.path;
   request.drive.draws = kDraws;
   request.drive.as_of_sol = as_of_sol;
+  planner::watch_as_past_drives(request.drive.limits, request.drive.checks);
   NoProgress progress;
   const auto answer = service.check(request, progress);
   if (!answer) return fail(answer.error());

@@ -7,6 +7,7 @@
 
 #include "api/files/drive_outcomes.h"
 #include "api/service.h"
+#include "planner/predict_path.h"
 #include "core/progress.h"
 #include "validation/mars/comparisons.h"
 
@@ -84,6 +85,7 @@ Result<sim::DrivePrediction> checked(const api::Service& service, const std::vec
   request.drive.as_of_sol = as_of_sol;
   request.drive.legend = asked.legend;
   request.drive.limits.max_slip_ratio = asked.max_slip;
+  planner::watch_as_past_drives(request.drive.limits, request.drive.checks);
   NoProgress progress;
   auto answer = service.check(request, progress);
   if (!answer) return fail(answer.error());
