@@ -44,7 +44,8 @@ std::vector<dem::RasterClass> classes_of(const MapRequest& request, const Proven
       std::vector<dem::RasterClass> rows{class_row(classes::kGo, "GO", kClassGreen)};
       if (!request.heading_rad)
         rows.push_back(class_row(classes::kGoInSomeHeadings, "GO in some headings only", kClassYellow));
-      rows.push_back(class_row(classes::kVerdictUnknown, "UNKNOWN: the draws of the ground do not decide", kClassGrey));
+      rows.push_back(
+          class_row(classes::kVerdictUnknown, "UNKNOWN: the draws of the ground do not decide", kClassGrey));
       rows.push_back(class_row(classes::kNoGo, "NO-GO", kClassRed));
       return rows;
     }

@@ -80,7 +80,8 @@ class Maps(unittest.TestCase):
         believed = self.made("stop_risk", "b.tif", "--extent", "8142480,-276700,8142520,-276660", "--on-unknown", "belief")
         self.assertGreater(nothing["statistics"]["nodata_cells"], 0)
         self.assertLess(believed["statistics"]["nodata_cells"], nothing["statistics"]["nodata_cells"])
-        self.assertGreater(believed["statistics"]["lowest"], 0.0)
+        self.assertGreaterEqual(believed["statistics"]["lowest"], 0.0)
+        self.assertGreater(believed["statistics"]["highest"], 0.0)
 
     def test_classes_have_names_for_gdal_and_qgis(self):
         answer = self.made("belief", "belief.tif")

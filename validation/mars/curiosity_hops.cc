@@ -5,8 +5,8 @@
 
 #include "api/files/drive_outcomes.h"
 #include "api/service.h"
-#include "planner/predict_path.h"
 #include "core/progress.h"
+#include "planner/predict_path.h"
 #include "validation/mars/comparisons.h"
 
 namespace slipway::validation {
