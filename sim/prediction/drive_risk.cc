@@ -47,10 +47,12 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
   return !progress.cancelled();
 }
 
-// The probability of a halt lies between its bars, on the way or on a segment: more draws make no GO of it.
+// The probability of a halt lies between its bars, on the way or on a segment, and the others keep theirs:
+// more draws make neither a GO of it nor a NO-GO.
 bool stays_open(const OutcomeBars& bars, const DriveOutcomes& outcomes) {
   const auto is_between = [&](const OutcomeShares& shares) {
-    return shares.stop.low > bars.max_stop && shares.stop.high < bars.no_go_stop;
+    return shares.stop.low > bars.max_stop && shares.stop.high < bars.no_go_stop &&
+           shares.immobilised.high < bars.max_immobilised && shares.embedding.high < bars.max_embedding;
   };
   if (outcomes.segments.empty()) return is_between(outcomes);
   return std::any_of(outcomes.segments.begin(), outcomes.segments.end(), is_between);
