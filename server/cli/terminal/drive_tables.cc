@@ -243,7 +243,7 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
   const auto document = read(answer);
   if (!document) return fail(document.error());
   const auto& summary = at(*document, "summary").elements;
-  std::string out;
+  std::string out = summary.empty() ? "NO-GO: there is no route\n" : "";
   if (!summary.empty()) {
     const JsonValue& decision = at(properties_of(*document, 0), "decision");
     TextTable table = figures_table("route");
