@@ -200,7 +200,7 @@ TEST(RankedOrder, IsByCostAndWhatBreaksALimitComesLast) {
   routes.push_back(routes_of(cheapest, cheapest).front());
   routes[0].prediction.length_m = 10.0;  // does not help it
   EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
-  // Neither a caution nor a draw of luck changes the order, a broken limit does.
+  // Neither an unknown verdict nor a draw of luck changes the order, a broken limit does.
   routes[2].decision.verdict = Verdict::kUnknown;
   EXPECT_EQ(ranked_order(routes), (std::vector<std::size_t>{2, 1, 0}));
   routes[2].decision.verdict = Verdict::kNoGo;
