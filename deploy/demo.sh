@@ -80,7 +80,7 @@ check() {
   esac
   echo "One page for a meeting: var/demo-check-$name.html"
 }
-check plain 8142640,-276640 8142600,-276645
+check plain 8142566,-276711 8142566,-276696
 check slope 8142579.7,-276648.7 8142578,-276680
 
 print_stages

@@ -35,10 +35,10 @@ holds '^route ' "$folder/out"
 holds '^stage  *minutes' "$folder/out"
 [ -s "$folder/tree/var/demo-routes.svg" ] || { echo "no picture"; exit 1; }
 # A drive that may be commanded and one that may not, with the reasons and a page each.
-holds '^GO$' "$folder/out"
+holds '^GO: every limit holds' "$folder/out"
 holds '^GO: this drive may be commanded.$' "$folder/out"
 holds '^NO-GO: this drive may not be commanded' "$folder/out"
-holds 'slip_check trips in' "$folder/out"
+holds '^NO-GO: immobilised on the mean soils' "$folder/out"
 for page in plain slope; do
   grep -q 'class="banner' "$folder/tree/var/demo-check-$page.html" || { echo "no page of the check"; exit 1; }
 done
