@@ -33,6 +33,14 @@ double promising_m(const PlanProblem& problem, const sim::DrivePrediction& drive
   return least;
 }
 
+Advice advice_at(Advice::Kind kind, double at_m, const Pose2& place) {
+  Advice advice{.kind = kind};
+  advice.to_m = at_m;
+  advice.x_m = place.x_m;
+  advice.y_m = place.y_m;
+  return advice;
+}
+
 std::vector<sim::PathStation> beginning(const std::vector<sim::PathStation>& path, double length_m) {
   const auto end = std::find_if(path.begin(), path.end(), [&](const sim::PathStation& station) {
     return station.distance_m > length_m;
@@ -58,10 +66,7 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
     if (!predicted) return std::nullopt;
     if (judge_drive(problem, *predicted).verdict != Verdict::kGo) continue;
     const sim::PathStation& end = shorter.back();
-    Advice advice{.kind = Advice::Kind::kShorterDrive};
-    advice.to_m = end.distance_m;
-    advice.x_m = end.pose.x_m;
-    advice.y_m = end.pose.y_m;
+    Advice advice = advice_at(Advice::Kind::kShorterDrive, end.distance_m, end.pose);
     advice.words = fmt::format(
         "end the drive at {:.1f} m, at ({:.1f}, {:.1f}): to there it is a GO, with a halt "
         "in {} of {} draws",
@@ -80,10 +85,7 @@ std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePr
   if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding ||
       scout.expected_stops >= bars.no_go_stop)
     return std::nullopt;
-  Advice advice{.kind = Advice::Kind::kScoutDrive};
-  advice.to_m = scout.from_m;
-  advice.x_m = scout.from.x_m;
-  advice.y_m = scout.from.y_m;
+  Advice advice = advice_at(Advice::Kind::kScoutDrive, scout.from_m, scout.from);
   advice.words = fmt::format(
       "drive {:.0f} m onto the ground at {:.0f} m, at ({:.1f}, {:.1f}), and measure the "
       "slip there: that makes it a GO with a probability of {}",

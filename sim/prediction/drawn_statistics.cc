@@ -71,8 +71,7 @@ class Weighted {
   double sum_ = 0.0, effective_ = 0.0;
 };
 
-RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weighted& weighted,
-                   const Segments* segments, double limit) {
+RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weighted& weighted, double limit) {
   RuleRisk risk;
   risk.rule = rule;
   risk.limit = limit;
@@ -101,12 +100,18 @@ RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weigh
     risk.station = place.first;
     risk.wheel = place.second;
   }
-  if (segments)
-    risk.halts = weighted.mean([&](const DrawnDrive& d) {
-      const DriveEnding ending = segments->endings(d.outcome).front();
-      return ending.halt && ending.halt->rule == rule;
-    });
   return risk;
+}
+
+// The share of the draws that each rule halts first, on the first segment.
+void fill_halts(const std::vector<DrawnDrive>& drives, const Segments& segments, DriveOutcomes& out) {
+  double sum = 0.0;
+  for (const DrawnDrive& drive : drives) {
+    sum += drive.weight;
+    if (const DriveEnding ending = segments.endings(drive.outcome).front(); ending.halt)
+      out.rules[static_cast<std::size_t>(ending.halt->rule)].halts += drive.weight;
+  }
+  for (RuleRisk& rule : out.rules) rule.halts /= sum;
 }
 
 // First halts and embeddings by ground and by stretch.
@@ -182,16 +187,14 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
   out.completed = weighted.share([](const DrawnDrive& d) { return d.outcome.ending().completed(); });
   out.unsolved = weighted.mean([](const DrawnDrive& d) { return d.unsolved; });
   fill_expected_stops(weighted, out);
-  std::optional<Segments> segments;
-  if (!stations.empty()) {
-    segments.emplace(stations, options.segment_m);
-    locate(drives, stations, *segments, out);
-    fill_position(weighted, out);
-    if (options.segment_m > 0.0) out.segments = segment_risks(drives, *segments);
-  }
   for (const RuleRow& row : rule_catalogue())
-    out.rules.push_back(rule_risk(row.rule, drives, weighted, segments ? &*segments : nullptr,
-                                  limit_of(row.rule, limits, options.checks)));
+    out.rules.push_back(rule_risk(row.rule, drives, weighted, limit_of(row.rule, limits, options.checks)));
+  if (stations.empty()) return out;
+  const Segments segments(stations, options.segment_m);
+  fill_halts(drives, segments, out);
+  locate(drives, stations, segments, out);
+  fill_position(weighted, out);
+  if (options.segment_m > 0.0) out.segments = segment_risks(drives, segments);
   return out;
 }
 
