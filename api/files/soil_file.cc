@@ -206,7 +206,8 @@ void read_shares(ObjectReader& reader, sim::SpreadShares& shares) {
 // Names alone: the soils that they name may stand in other files.
 void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
   constexpr NumberRule kWeight{"1", 0.0, 1e6};
-  double pressure = 0.0, strength = 0.0;
+  double pressure = 0.0, strength = 0.0, on_units = 0.0;
+  bool in_patches = false;
   std::size_t whole = 0;
   for (const Element& element : reader.list("alternatives", kOptional, {1, 100})) {
     ObjectReader row(*element.value, element.pointer, reader.faults());
@@ -220,8 +221,11 @@ void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
       row.number("pressure_weight", kOptional, kWeight, alternative.pressure_weight);
       row.number("strength_weight", kOptional, kWeight, alternative.strength_weight);
     }
+    row.boolean("in_patches", kOptional, alternative.in_patches);
     row.refuse_unknown();
     pressure += alternative.pressure_weight;
+    on_units += alternative.in_patches ? 0.0 : alternative.strength_weight;
+    in_patches = in_patches || alternative.in_patches;
     strength += alternative.strength_weight;
   }
   if (!soil.alternatives.empty() && (pressure <= 0.0 || strength <= 0.0))
@@ -233,6 +237,9 @@ void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
   auto by = static_cast<std::size_t>(soil.alternatives_by);
   reader.choice("alternatives_by", kOptional, kAlternativesBy, by);
   soil.alternatives_by = static_cast<sim::AlternativesBy>(by);
+  if (in_patches && (soil.alternatives_by != sim::AlternativesBy::kUnit || whole == 0 || on_units <= 0.0))
+    reader.fault("alternatives",
+                 "in_patches is for alternatives with a weight and by unit, of which some are not in patches");
   reader.number("alternatives_spread", kOptional, {"1", 0.0, 5.0}, soil.alternatives_spread);
 }
 
@@ -371,6 +378,7 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
             .exact("strength_weight", alternative.strength_weight);
       else
         w.exact("weight", alternative.strength_weight);
+      if (alternative.in_patches) w.boolean("in_patches", true);
       w.end_object();
     }
     w.end_array().text("alternatives_by", kAlternativesBy[static_cast<std::size_t>(soil.alternatives_by)]);

@@ -16,7 +16,9 @@ enum Stream : std::uint64_t {
   kStrengthChoice,
   kJitter,
   kWeak,
-  kCommonness
+  kCommonness,
+  kInPatches,
+  kPatchOrUnit
 };
 
 std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
@@ -40,8 +42,10 @@ bool has_closure_spread(const SoilDistribution& of) {
 
 const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
                                            double SoilAlternative::*weight, double uniform,
-                                           const std::vector<double>& commonness) {
+                                           const std::vector<double>& commonness,
+                                           std::optional<bool> in_patches) {
   const auto weight_of = [&](std::size_t k) {
+    if (in_patches && alternatives[k].in_patches != *in_patches) return 0.0;
     return alternatives[k].*weight * (commonness.empty() ? 1.0 : commonness[k]);
   };
   double sum = 0.0;
@@ -51,7 +55,9 @@ const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& a
     left -= weight_of(k);
     if (left < 0.0) return *alternatives[k].soil;
   }
-  return *alternatives.back().soil;
+  std::size_t last = alternatives.size() - 1;
+  while (last > 0 && weight_of(last) <= 0.0) --last;
+  return *alternatives[last].soil;
 }
 
 Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z,
@@ -104,6 +110,8 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
     for (std::size_t k = 0; k < place->distribution->alternatives.size(); ++k)
       place->commonness.push_back(
           std::exp(place->distribution->alternatives_spread * random_normal(commonness, k)));
+    if (place->distribution->alternatives_by == AlternativesBy::kUnit)
+      place->share_in_patches = share_in_patches(*place);
   }
   Belief& belief = *place;
   // The wheels of a rover at one place are asked for one after another with the place of the rover.
@@ -166,6 +174,31 @@ DrawnGround::Normals DrawnGround::blended(Corners& corners, std::uint64_t key, d
   return sum / std::sqrt(variance);
 }
 
+// The share of the ground that lies in patches within units, in this draw.
+double DrawnGround::share_in_patches(const Belief& belief) {
+  const std::vector<SoilAlternative>& alternatives = belief.distribution->alternatives;
+  double in_patches = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    const double weight = alternatives[k].strength_weight * belief.commonness[k];
+    all += weight;
+    if (alternatives[k].in_patches) in_patches += weight;
+  }
+  return in_patches / all;
+}
+
+// The patch of a soil that lies within units, or the unit. Whether a patch is one of them is drawn for its
+// cell.
+std::uint64_t DrawnGround::unit_or_patch(Belief& belief, double x_m, double y_m) {
+  belief.in_patch = false;
+  if (belief.share_in_patches > 0.0) {
+    const std::uint64_t patch = cell_at(random_key(belief.key, kInPatches),
+                                        belief.distribution->correlation_length_m, x_m, y_m);
+    belief.in_patch = random_uniform(patch, kPatchOrUnit) < belief.share_in_patches;
+    if (belief.in_patch) return patch;
+  }
+  return cell_at(random_key(belief.key, kJitter), kUnitLength_m, x_m, y_m);
+}
+
 // The rows of pressure and strength of a cell, drawn anew until the rover drives level ground of them.
 void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   constexpr std::uint64_t kMaxTries = 50;
@@ -173,8 +206,10 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   const SoilNormals weak = weak_unit(of, belief.everywhere.head<kSoilDims>());
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
     const std::uint64_t choice = random_key(cell, tried);
-    belief.strength = &chosen_alternative(of.alternatives, &SoilAlternative::strength_weight,
-                                          random_uniform(choice, kStrengthChoice), belief.commonness);
+    belief.strength =
+        &chosen_alternative(of.alternatives, &SoilAlternative::strength_weight,
+                            random_uniform(choice, kStrengthChoice), belief.commonness,
+                            belief.share_in_patches > 0.0 ? std::optional(belief.in_patch) : std::nullopt);
     belief.pressure = belief.strength;
     if (of.drawn_apart)
       belief.pressure = &chosen_alternative(of.alternatives, &SoilAlternative::pressure_weight,
@@ -201,7 +236,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
   if (of.alternatives.empty()) return draw_soil(of, normals, closures);
   std::uint64_t choice = key;
   if (of.alternatives_by == AlternativesBy::kUnit)
-    choice = cell_at(random_key(key, kJitter), kUnitLength_m, x_m, y_m);
+    choice = unit_or_patch(belief, x_m, y_m);
   else if (of.alternatives_by == AlternativesBy::kPatch)
     choice = cell_at(random_key(key, kJitter), of.correlation_length_m, x_m, y_m);
   if (belief.chosen_for != choice) {

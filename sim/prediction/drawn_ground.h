@@ -26,10 +26,12 @@ inline constexpr double kMaxLevelSlip = 0.2;
 Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z,
                  const ClosureNormals& closures = ClosureNormals::Zero());
 
-// The one of the alternatives, by their weights, that a uniform number falls on.
+// The one of the alternatives, by their weights, that a uniform number falls on; of those that lie in patches
+// within units or of the others alone, where `in_patches` says which.
 const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
                                            double SoilAlternative::*weight, double uniform,
-                                           const std::vector<double>& commonness = {});
+                                           const std::vector<double>& commonness = {},
+                                           std::optional<bool> in_patches = {});
 
 // A belief's own normal numbers, pushed to where few units and patches are weaker: an alternative must carry
 // the rover on level ground even there.
@@ -43,7 +45,9 @@ SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywh
 // kUnitLength_m and one that changes over the soil's correlation length, weighted by the shares of the
 // variance. Those that change are normal numbers at the corners of a lattice, blended between them with a
 // variance of one everywhere. Of alternatives one is chosen for all ground of the soil, or one for each unit:
-// the cell of the nearest of the jittered centres of a lattice.
+// the cell of the nearest of the jittered centres of a lattice. Alternatives in patches lie over the units:
+// each cell of a lattice with the soil's correlation length is such a patch with the probability of their
+// share of the weights.
 //
 // Alternatives that are drawn apart and on which the rover would slip by 20 % or more on level ground are
 // drawn again, but for a share of kWeakShare: their numbers come from tests of a few wheels and trenches,
@@ -84,6 +88,8 @@ class DrawnGround {
     bool with_closures = false;  // c1 or c2 has a spread
     Normals everywhere;
     std::vector<double> commonness;  // factor of each alternative's weight in this draw
+    double share_in_patches = 0.0;   // of alternatives by unit, in this draw
+    bool in_patch = false;           // the place lies in such a patch
     Corners unit, patch;
     // The alternatives that were chosen for one unit, or for all ground.
     std::optional<std::uint64_t> chosen_for;
@@ -101,6 +107,8 @@ class DrawnGround {
   std::uint64_t cell_at(std::uint64_t key, double length_m, double x_m, double y_m);
   Normals blended(Corners& corners, std::uint64_t key, double length_m, double x_m, double y_m);
   Soil draw(Belief& belief, double x_m, double y_m);
+  static double share_in_patches(const Belief& belief);
+  std::uint64_t unit_or_patch(Belief& belief, double x_m, double y_m);
   void choose(Belief& belief, std::uint64_t cell) const;
 
   const SoilBeliefs& beliefs_;

@@ -166,6 +166,9 @@ struct SoilAlternative {
   std::shared_ptr<const SoilDistribution> soil;  // of that name; without alternatives of its own
   double pressure_weight = 1.0;                  // for k_c, k_phi, n and the law of pressure
   double strength_weight = 1.0;                  // for everything else
+  // Of alternatives by unit: it lies in patches within the units of the others, on its weight's share of the
+  // ground.
+  bool in_patches = false;
 };
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "steps/belief_fit.h"
+
+namespace slipway::steps {
+namespace {
+
+// The soil on units whose slip at 8 deg of climb is the median of the class: what is predicted on mean soils.
+const FittedSoil& median_soil(const BeliefFit& fit, const FittedClass& of) {
+  std::vector<std::size_t> order(fit.soils.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return fit.soils[a].slip_at_8_deg < fit.soils[b].slip_at_8_deg;
+  });
+  double sum = 0.0;
+  for (const std::size_t k : order) {
+    sum += of.shares[k];
+    if (sum >= 0.5) return fit.soils[k];
+  }
+  return fit.soils[order.back()];
+}
+
+sim::SoilDistribution soil_of(const FittedSoil& fitted, const std::string& source,
+                              const BeliefFitOptions& options) {
+  sim::SoilDistribution soil;
+  soil.name = fitted.name;
+  soil.summary = fmt::format("{} ground of Gale crater: slips by {:.1f} % on the level, {:.0f} % at 8 deg",
+                             fitted.in_patches ? "Loose" : "Firm", 100.0 * fitted.level_slip,
+                             100.0 * fitted.slip_at_8_deg);
+  soil.source = source;
+  soil.assumed = {"which of the soils with this slip it is: slip alone tells stiffness, strength and shear apart "
+                  "poorly",
+                  "density_kg_m3", "c1", "c2"};
+  soil.mean = fitted.soil;
+  soil.correlation_length_m = options.patch_m;
+  return soil;
+}
+
+}  // namespace
+
+std::vector<sim::SoilDistribution> as_soils(const BeliefFit& fit, const BeliefFitOptions& options,
+                                            const std::string& source) {
+  // How far the slip of a patch is from its soil's: the part of a step's noise that goes with the slip.
+  constexpr double kSlipError = 0.2;
+  // The logarithms of shares differ by about this between the sols before 583 and Marias Pass.
+  constexpr double kSharesSpread = 1.0;
+  std::vector<sim::SoilDistribution> soils;
+  for (const FittedSoil& each : fit.soils) soils.push_back(soil_of(each, source, options));
+  for (const FittedClass& of : fit.classes) {
+    sim::SoilDistribution belief = soil_of(median_soil(fit, of), source, options);
+    belief.name = of.name;
+    belief.summary = of.summary;
+    belief.assumed = {"mean: the soil whose slip at 8 deg is the median; predictions on mean soils alone",
+                      "slip_error: the part of a step's scatter that goes with its slip",
+                      "alternatives_spread: places differ in their shares about as much as Marias Pass does "
+                      "from the plains before it"};
+    belief.shares = {0.0, 0.0, 1.0};
+    belief.slip_error = kSlipError;
+    belief.drawn_apart = false;
+    belief.alternatives_by = sim::AlternativesBy::kUnit;
+    belief.alternatives_spread = kSharesSpread;
+    for (std::size_t k = 0; k < fit.soils.size(); ++k) {
+      const double share = std::round(1e5 * of.shares[k]) / 1e5;
+      if (share <= 0.0) continue;
+      belief.alternatives.push_back({fit.soils[k].name,
+                                     std::make_shared<const sim::SoilDistribution>(soils[k]), share, share,
+                                     fit.soils[k].in_patches});
+    }
+    soils.push_back(std::move(belief));
+  }
+  return soils;
+}
+
+}  // namespace slipway::steps
