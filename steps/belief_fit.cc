@@ -115,22 +115,23 @@ std::vector<Eigen::ArrayXXd> likelihoods_of(const FitData& data, const StepNoise
   return out;
 }
 
-// Expectation maximisation of entry weights over the ways of `chosen`; returns the log likelihood. The prior
-// counts as stretches that were met besides.
+// Expectation maximisation of the soils' shares of the steps over the ways of `chosen`; returns the log
+// likelihood. The prior counts as steps besides. Steps are counted, not stretches: a way shows parts of its
+// first and last stretch alone, so that stretches would count short patches too seldom.
 double maximise(const GroundChain& chain, const FitData& data,
                 const std::vector<Eigen::ArrayXXd>& likelihoods, std::span<const std::size_t> chosen,
-                const Eigen::ArrayXd& prior, int rounds, Eigen::ArrayXd& weights) {
+                const Eigen::ArrayXd& prior, int rounds, Eigen::ArrayXd& shares) {
   double log_likelihood = 0.0;
   for (int round = 0; round < rounds; ++round) {
-    Eigen::ArrayXd entries = prior;
+    Eigen::ArrayXd steps = prior;
     log_likelihood = 0.0;
-    const Eigen::ArrayXd start = chain.shares_of_entries(weights);
+    const std::vector<Eigen::ArrayXd> weights{chain.entry_weights(shares)};
     for (const std::size_t w : chosen) {
-      const ChainPass pass = follow(chain, data.ways[w], likelihoods[w], start, {weights});
-      entries += pass.entries.col(0);
+      const ChainPass pass = follow(chain, data.ways[w], likelihoods[w], shares, weights);
+      steps += pass.occupied;
       log_likelihood += pass.log_likelihood;
     }
-    weights = entries / entries.sum();
+    shares = steps / steps.sum();
   }
   return log_likelihood;
 }
@@ -144,48 +145,48 @@ std::vector<std::size_t> all_of(const FitData& data) {
 // The kept soils: those with the largest shares, in steps of which each halves what is too many.
 std::vector<std::size_t> kept(const GroundChain& chain, const FitData& data,
                               const std::vector<Eigen::ArrayXXd>& likelihoods,
-                              const BeliefFitOptions& options, Eigen::ArrayXd weights) {
+                              const BeliefFitOptions& options, Eigen::ArrayXd shares) {
   constexpr int kHalvings = 5;
   constexpr double kGone = 1e-7;
   const std::vector<std::size_t> all = all_of(data);
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(weights.size());
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(shares.size());
   for (int halving = 0; halving < kHalvings; ++halving) {
     std::vector<std::size_t> order(chain.soils.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return weights[static_cast<Eigen::Index>(a)] > weights[static_cast<Eigen::Index>(b)];
+      return shares[static_cast<Eigen::Index>(a)] > shares[static_cast<Eigen::Index>(b)];
     });
-    Eigen::ArrayXd remaining = Eigen::ArrayXd::Zero(weights.size());
+    Eigen::ArrayXd remaining = Eigen::ArrayXd::Zero(shares.size());
     for (const bool in_patches : {false, true}) {
       const std::size_t wanted = in_patches ? options.in_patches : options.on_units;
       std::vector<std::size_t> here;
       for (const std::size_t k : order)
-        if (chain.soils[k].in_patches == in_patches && weights[static_cast<Eigen::Index>(k)] > kGone)
+        if (chain.soils[k].in_patches == in_patches && shares[static_cast<Eigen::Index>(k)] > kGone)
           here.push_back(k);
       const std::size_t extra = here.size() > wanted ? here.size() - wanted : 0;
       const std::size_t keep = wanted + (halving + 1 < kHalvings ? extra / 2 : 0);
       for (std::size_t i = 0; i < std::min(keep, here.size()); ++i)
-        remaining[static_cast<Eigen::Index>(here[i])] = weights[static_cast<Eigen::Index>(here[i])];
+        remaining[static_cast<Eigen::Index>(here[i])] = shares[static_cast<Eigen::Index>(here[i])];
     }
-    weights = remaining / remaining.sum();
-    maximise(chain, data, likelihoods, all, none, kRoundsOfProfile, weights);
+    shares = remaining / remaining.sum();
+    maximise(chain, data, likelihoods, all, none, kRoundsOfProfile, shares);
   }
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < chain.soils.size(); ++k)
-    if (weights[static_cast<Eigen::Index>(k)] > kGone) out.push_back(k);
+    if (shares[static_cast<Eigen::Index>(k)] > kGone) out.push_back(k);
   return out;
 }
 
-Eigen::ArrayXd first_weights(const GroundChain& chain) {
+Eigen::ArrayXd first_shares(const GroundChain& chain) {
   constexpr double kInPatches = 0.02;
-  Eigen::ArrayXd weights(static_cast<Eigen::Index>(chain.soils.size()));
+  Eigen::ArrayXd shares(static_cast<Eigen::Index>(chain.soils.size()));
   const auto patches = static_cast<double>(std::count_if(
       chain.soils.begin(), chain.soils.end(), [](const ChainSoil& soil) { return soil.in_patches; }));
   const double units = static_cast<double>(chain.soils.size()) - patches;
   for (std::size_t k = 0; k < chain.soils.size(); ++k)
-    weights[static_cast<Eigen::Index>(k)] =
+    shares[static_cast<Eigen::Index>(k)] =
         chain.soils[k].in_patches ? kInPatches / patches : (1.0 - kInPatches) / units;
-  return weights;
+  return shares;
 }
 
 GroundChain chain_of(const sim::RoverModel& rover, double gravity_m_s2, const std::vector<Candidate>& soils,
@@ -224,11 +225,11 @@ struct FitParts {
 };
 
 // The profiles of offset, noise and patches' length over the kept soils.
-void add_profiles(const FitParts& parts, const Eigen::ArrayXd& weights, BeliefFit& fit) {
+void add_profiles(const FitParts& parts, const Eigen::ArrayXd& shares, BeliefFit& fit) {
   const std::vector<std::size_t> all = all_of(parts.data);
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(weights.size());
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(shares.size());
   const auto at = [&](const GroundChain& chain, const StepNoise& noise, double offset) {
-    Eigen::ArrayXd here = weights;
+    Eigen::ArrayXd here = shares;
     return maximise(chain, parts.data, likelihoods_of(parts.data, noise, offset), all, none,
                     kRoundsOfProfile, here);
   };
@@ -251,18 +252,17 @@ void add_profiles(const FitParts& parts, const Eigen::ArrayXd& weights, BeliefFi
 }
 
 void add_intervals(const FitParts& parts, const std::vector<Eigen::ArrayXXd>& likelihoods,
-                   const Eigen::ArrayXd& weights, const BeliefFitOptions& options, BeliefFit& fit) {
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(weights.size());
+                   const Eigen::ArrayXd& shares, const BeliefFitOptions& options, BeliefFit& fit) {
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(shares.size());
   std::vector<Eigen::ArrayXd> resampled(options.resamples);
   parallel_for(options.resamples, options.threads, [&](std::size_t r) {
     std::vector<std::size_t> chosen(parts.data.ways.size());
     for (std::size_t w = 0; w < chosen.size(); ++w)
       chosen[w] = random_bits(random_key(options.seed, 1000000 + r), w) % chosen.size();
-    Eigen::ArrayXd here = weights;
+    Eigen::ArrayXd here = shares;
     maximise(parts.chain, parts.data, likelihoods, chosen, none, kRoundsOfProfile, here);
-    resampled[r] = parts.chain.shares_of_entries(here);
+    resampled[r] = here;
   });
-  const Eigen::ArrayXd shares = parts.chain.shares_of_entries(weights);
   for (std::size_t k = 0; k < fit.soils.size(); ++k) {
     std::vector<double> values;
     for (const Eigen::ArrayXd& each : resampled) values.push_back(each[static_cast<Eigen::Index>(k)]);
@@ -310,16 +310,16 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
   for (const double tried : {0.0, 0.01, 0.02, 0.025, 0.03, 0.04}) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "cancelled");
     progress.report("how much odometry counts too much", 0.4);
-    Eigen::ArrayXd weights = first_weights(wide);
+    Eigen::ArrayXd shares = first_shares(wide);
     const double here = maximise(wide, wide_data, likelihoods_of(wide_data, noise, tried), every, no_prior,
-                                 kRoundsOfProfile, weights);
+                                 kRoundsOfProfile, shares);
     if (here > best) std::tie(best, offset) = std::pair(here, tried);
   }
   const auto wide_likelihoods = likelihoods_of(wide_data, noise, offset);
-  Eigen::ArrayXd wide_weights = first_weights(wide);
-  maximise(wide, wide_data, wide_likelihoods, every, no_prior, kRounds, wide_weights);
+  Eigen::ArrayXd wide_shares = first_shares(wide);
+  maximise(wide, wide_data, wide_likelihoods, every, no_prior, kRounds, wide_shares);
   std::vector<Candidate> chosen;
-  for (const std::size_t k : kept(wide, wide_data, wide_likelihoods, options, wide_weights))
+  for (const std::size_t k : kept(wide, wide_data, wide_likelihoods, options, wide_shares))
     chosen.push_back(drawn[k]);
   chosen = in_order(std::move(chosen));
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "cancelled");
@@ -328,9 +328,9 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
   const GroundChain chain = chain_of(rover, gravity_m_s2, chosen, options);
   const FitData data = data_of(chain, ways);
   const auto likelihoods = likelihoods_of(data, noise, offset);
-  Eigen::ArrayXd weights = first_weights(chain);
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(weights.size());
-  fit.log_likelihood = maximise(chain, data, likelihoods, every, none, 2 * kRounds, weights);
+  Eigen::ArrayXd shares = first_shares(chain);
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(shares.size());
+  fit.log_likelihood = maximise(chain, data, likelihoods, every, none, 2 * kRounds, shares);
   std::size_t on_units = 0, in_patches = 0;
   for (const Candidate& each : chosen) {
     const bool patch = each.level_slip > kLevelSlipOfPatches;
@@ -338,19 +338,17 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
     fit.soils.push_back({name, each.soil, patch, {}, each.level_slip, each.slip_at_8_deg, each.sinkage_m});
   }
   const FitParts parts{chain, data, noise, offset};
-  add_profiles(parts, weights, fit);
-  add_intervals(parts, likelihoods, weights, options, fit);
+  add_profiles(parts, shares, fit);
+  add_intervals(parts, likelihoods, shares, options, fit);
 
-  const Eigen::ArrayXd shares = chain.shares_of_entries(weights);
   fit.classes.push_back({"unknown_ground", "", {shares.begin(), shares.end()}, fit.steps});
   for (const GroundClassSteps& each : classes) {
     const FitData of_class = data_of(chain, each.ways);
-    Eigen::ArrayXd here = weights;
+    Eigen::ArrayXd here = shares;
     maximise(chain, of_class, likelihoods_of(of_class, noise, offset), all_of(of_class),
-             options.prior_stretches * weights, kRounds, here);
-    const Eigen::ArrayXd class_shares = chain.shares_of_entries(here);
+             options.prior_steps * shares, kRounds, here);
     FittedClass& out = fit.classes.emplace_back(
-        FittedClass{each.name, each.summary, {class_shares.begin(), class_shares.end()}, 0});
+        FittedClass{each.name, each.summary, {here.begin(), here.end()}, 0});
     for (const std::vector<ChainStep>& way : each.ways) out.steps += way.size();
   }
   return fit;

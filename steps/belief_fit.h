@@ -32,8 +32,8 @@ struct BeliefFitOptions {
   std::size_t on_units = 14, in_patches = 7;  // soils that are kept at most
   double patch_m = 13.0;              // correlation length of patches
   std::size_t resamples = 40;         // of whole sols, for intervals of the shares
-  // The belief of all ground counts as this many stretches of a class.
-  double prior_stretches = 10.0;
+  // The belief of all ground counts as this many steps on a class.
+  double prior_steps = 50.0;
   std::uint64_t seed = 1;
   std::size_t threads = 0;
 };
