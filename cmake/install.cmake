@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slipway)
-set(rooms core dem sim planner gap campaign benchmark api)
+set(rooms core dem sim steps planner gap campaign benchmark api)
 
 install(TARGETS slipway RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT tools)

@@ -24,7 +24,7 @@ bool read(const std::string& text, Number& out) {
 Query::Query(const HttpRequest& request, std::vector<std::string> known) : request_(request) {
   for (const auto& [name, value] : request.query) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      faults_.push_back({"/" + name, api::unknown_name("query parameter", name, known)});
+      faults_.push_back({"/" + name, unknown_name("query parameter", name, known)});
     } else if (std::count_if(request.query.begin(), request.query.end(),
                              [&n = name](const auto& entry) { return entry.first == n; }) > 1) {
       faults_.push_back({"/" + name, fmt::format("{} is given more than once", name)});
@@ -44,7 +44,7 @@ double Query::required_number(const std::string& name) {
   if (!text) {
     faults_.push_back({"/" + name, fmt::format("{} is missing", name)});
   } else if (!read(*text, value) || !std::isfinite(value)) {
-    faults_.push_back({"/" + name, fmt::format("{} = {}, must be a number", name, api::in_quotes(*text))});
+    faults_.push_back({"/" + name, fmt::format("{} = {}, must be a number", name, in_quotes(*text))});
   }
   return value;
 }
@@ -65,7 +65,7 @@ std::vector<double> Query::required_numbers(const std::string& name) {
     double value = 0.0;
     if (!read(text->substr(from, end - from), value) || !std::isfinite(value)) {
       fault(name, fmt::format("value {} of {} is {}, must be a number", values.size() + 1, name,
-                              api::in_quotes(text->substr(from, end - from))));
+                              in_quotes(text->substr(from, end - from))));
       return {};
     }
     values.push_back(value);
@@ -83,7 +83,7 @@ std::size_t Query::count(const std::string& name, std::size_t initial, std::size
   std::size_t value = initial;
   if (text && (!read(*text, value) || value < 1 || value > most)) {
     faults_.push_back({"/" + name, fmt::format("{} = {}, must be a whole number in [1, {}]", name,
-                                               api::in_quotes(*text), most)});
+                                               in_quotes(*text), most)});
   }
   return value;
 }

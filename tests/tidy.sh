@@ -13,7 +13,7 @@ command -v clang-tidy >/dev/null || { echo "tests/tidy.sh: install clang-tidy fi
 build=build/tidy/UnifiedSource
 cmake --preset tidy >/dev/null || { echo "tests/tidy.sh: cmake could not configure" >&2; exit 1; }
 
-rooms=${*:-core dem sim planner gap campaign benchmark api validation server bench tests}
+rooms=${*:-core dem sim steps planner gap campaign benchmark api validation server bench tests}
 # Every source of these folders. What Simbody's headers say is Simbody's: the judge of the multibody's equations in tests/sim.
 sources=$(for room in $rooms; do find "$PWD/${room%/}" -name '*.cc'; done |
   grep -v -e '/simbody_multibody\.cc$' -e '/tests/install/')

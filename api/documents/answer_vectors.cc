@@ -11,11 +11,11 @@
 
 #include "api/chart/vector_styles.h"
 #include "api/documents/station_csv.h"
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
+#include "core/csv_cells.h"
 #include "dem/body_degrees.h"
 #include "dem/vector_file.h"
 

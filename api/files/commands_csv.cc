@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

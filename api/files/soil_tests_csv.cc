@@ -7,9 +7,9 @@
 #include <numbers>
 #include <optional>
 
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

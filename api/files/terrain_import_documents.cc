@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "api/files/csv_cells.h"
 #include "api/files/relief_values.h"
 #include "api/json/faults.h"
 #include "api/json/writer.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

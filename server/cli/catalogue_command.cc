@@ -25,7 +25,7 @@ Result<std::string> with_one_effect(std::string_view document, const std::string
     w.end_array().end_object();
     return w.take();
   }
-  const std::string message = api::unknown_name("effect", name, known);
+  const std::string message = unknown_name("effect", name, known);
   return fail(ErrorCode::kInvalidRequest, message, {{"/effect", message}});
 }
 

@@ -56,7 +56,7 @@ void read_free(const EstimateCommand& options, gap::SoilEstimationOptions& estim
     const auto parameter = gap::free_parameter(options.free[i]);
     if (!parameter)
       faults.push_back({fmt::format("/free/{}", i),
-                        api::unknown_name("parameter", options.free[i], gap::free_parameter_names())});
+                        unknown_name("parameter", options.free[i], gap::free_parameter_names())});
     else if (options.merge_stiffness &&
              (parameter->soil == SoilParameter::kKc || parameter->soil == SoilParameter::kKphi)) {
       gap::FreeParameter merged = SoilParameter::kBekker;
@@ -107,9 +107,9 @@ void read_wheels(const EstimateCommand& options, api::SoilEstimateRequest& reque
       auto& place = wheel_of(text, request).*member;
       const auto value = parse(std::string_view(text).substr(0, text.find('@')));
       if (!value)
-        faults.push_back({flag, fmt::format("{} is not {}", api::in_quotes(text), meaning)});
+        faults.push_back({flag, fmt::format("{} is not {}", in_quotes(text), meaning)});
       else if (place)
-        faults.push_back({flag, fmt::format("{}: this is given more than once", api::in_quotes(text))});
+        faults.push_back({flag, fmt::format("{}: this is given more than once", in_quotes(text))});
       else
         place = *value;
     }
@@ -153,7 +153,7 @@ void read_changes(const EstimateCommand& options, api::SoilEstimateRequest& requ
     if (value)
       request.set.push_back({text.substr(0, equals), *value});
     else
-      faults.push_back({"/set", fmt::format("{} is no setting NAME=value", api::in_quotes(text))});
+      faults.push_back({"/set", fmt::format("{} is no setting NAME=value", in_quotes(text))});
   }
 }
 
@@ -174,7 +174,7 @@ Result<api::SoilEstimateRequest> request_of(const EstimateCommand& options) {
       estimation.bounds.push_back(*bound);
     else
       faults.push_back(
-          {"/bound", fmt::format("{} is no bound NAME=lowest:highest of a parameter", api::in_quotes(text))});
+          {"/bound", fmt::format("{} is no bound NAME=lowest:highest of a parameter", in_quotes(text))});
   }
   if (options.loss_scale && options.loss == "none")
     faults.push_back(

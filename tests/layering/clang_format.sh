@@ -3,4 +3,4 @@
 set -eu
 formatter="$1"
 cd "$2"
-find core dem sim planner campaign benchmark gap api validation server tests bench -name '*.cc' -o -name '*.h' | sort | xargs "$formatter" --dry-run --Werror
+find core dem sim steps planner campaign benchmark gap api validation server tests bench -name '*.cc' -o -name '*.h' | sort | xargs "$formatter" --dry-run --Werror

@@ -12,13 +12,14 @@ MAY_SEE = {
     "core": set(),
     "dem": {"core"},
     "sim": {"core"},
+    "steps": {"core"},
     "planner": {"core", "dem", "sim"},
     "gap": {"core", "sim"},
-    "campaign": {"core", "dem", "sim", "planner", "gap"},
-    "benchmark": {"core", "dem", "sim", "planner", "gap", "campaign"},
-    "api": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark"},
-    "validation": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark", "api"},
-    "server": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark", "api", "validation"},
+    "campaign": {"core", "dem", "sim", "steps", "planner", "gap"},
+    "benchmark": {"core", "dem", "sim", "steps", "planner", "gap", "campaign"},
+    "api": {"core", "dem", "sim", "steps", "planner", "gap", "campaign", "benchmark"},
+    "validation": {"core", "dem", "sim", "steps", "planner", "gap", "campaign", "benchmark", "api"},
+    "server": {"core", "dem", "sim", "steps", "planner", "gap", "campaign", "benchmark", "api", "validation"},
 }
 
 # room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
@@ -30,7 +31,7 @@ FOLDERS = {
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "uploads", "requests", "jobs",
             "documents", "terrain_views", "report", "maps", "."],
     "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators", "worlds"}, "."],
-    "server": ["http", "cli/terminal", "cli/inquiry", "cli", "cli/study", "."],
+    "server": ["http", "cli/terminal", "cli/inquiry", "cli", {"cli/steps", "cli/study"}, "."],
 }
 MOST_SOURCES = 40  # .cc files in one folder
 

@@ -9,13 +9,13 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "api/files/csv_cells.h"
+#include "core/csv_cells.h"
 
 namespace slipway::validation {
 namespace {
 
 std::vector<std::string> cells_of(std::string_view line) {
-  const std::vector<std::string_view> cells = api::csv_cells(line);
+  const std::vector<std::string_view> cells = csv_cells(line);
   return {cells.begin(), cells.end()};
 }
 

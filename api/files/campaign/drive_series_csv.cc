@@ -10,9 +10,9 @@
 #include <optional>
 #include <span>
 
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
+#include "core/csv_cells.h"
 #include "gap/diagnosis/model/channel.h"
 
 namespace slipway::api {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "api/files/csv_cells.h"
 #include "api/json/faults.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

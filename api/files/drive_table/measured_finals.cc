@@ -9,10 +9,10 @@
 #include <system_error>
 #include <vector>
 
-#include "api/files/csv_cells.h"
 #include "api/files/drive_table/measured_campaign.h"
 #include "api/files/terrain_site.h"
 #include "core/angle.h"
+#include "core/csv_cells.h"
 
 namespace slipway::api {
 namespace {

@@ -124,7 +124,7 @@ Result<std::vector<std::string>> campaigns_in(const GapBenchmarkCommand& options
   std::vector<Fault> faults;
   for (const std::string& name : options.only)
     if (!std::binary_search(names.begin(), names.end(), name))
-      faults.push_back({"/only", api::unknown_name("campaign", name, names)});
+      faults.push_back({"/only", unknown_name("campaign", name, names)});
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, api::summary_of(faults), faults);
   std::erase_if(names, [&](const std::string& name) {
     return !options.only.empty() &&

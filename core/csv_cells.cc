@@ -1,4 +1,4 @@
-#include "api/files/csv_cells.h"
+#include "core/csv_cells.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <system_error>
 
-#include "api/json/faults.h"
+#include "core/fault_words.h"
 
-namespace slipway::api {
+namespace slipway {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -91,4 +91,4 @@ std::optional<double> csv_number(std::string_view cell) {
   return value;
 }
 
-}  // namespace slipway::api
+}  // namespace slipway

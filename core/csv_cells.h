@@ -8,7 +8,7 @@
 
 #include "core/result.h"
 
-namespace slipway::api {
+namespace slipway {
 
 struct CsvLine {
   std::string_view text;
@@ -42,4 +42,4 @@ CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std:
 // Nothing where the whole cell is no finite number.
 std::optional<double> csv_number(std::string_view cell);
 
-}  // namespace slipway::api
+}  // namespace slipway
