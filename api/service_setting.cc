@@ -54,14 +54,14 @@ std::string conditions_of(const std::string& terrain, const std::string& rover, 
 
 // What the map's soils and unknown ground are believed to be.
 sim::SoilBeliefs beliefs_of(const Catalogue& catalogue, const DriveAssumptions& drive,
-                            const std::vector<RegionalSoil>& soils, double confidence,
+                            const std::vector<RegionalSoil>& soils, double confidence, double gravity_m_s2,
                             const std::vector<sim::EffectSetting>& effects) {
   sim::SoilBeliefs beliefs;
+  const std::string unmapped(unknown_ground_at(gravity_m_s2));
   for (const RegionalSoil& soil : soils)
-    beliefs.known.push_back(believed(catalogue, soil, drive.confidence.value_or(confidence), effects));
+    beliefs.known.push_back(believed(catalogue, soil, drive.confidence.value_or(confidence), unmapped, effects));
   beliefs.unknown =
-      believed(catalogue, {drive.unknown_soil.empty() ? std::string(kUnknownGround) : drive.unknown_soil, {}},
-               1.0, effects);
+      believed(catalogue, {drive.unknown_soil.empty() ? unmapped : drive.unknown_soil, {}}, 1.0, unmapped, effects);
   return beliefs;
 }
 
@@ -132,7 +132,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.terrain_is_whole_map = problem.terrain->geometry() == site.info().geometry;
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
-  problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence, effects);
+  problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence,
+                               site.description().gravity_m_s2, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;

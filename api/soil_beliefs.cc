@@ -18,9 +18,10 @@ void apply(const std::vector<sim::EffectSetting>& effects, const std::vector<std
 }  // namespace
 
 sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& soil, double confidence,
+                               std::string_view unmapped,
                                const std::vector<sim::EffectSetting>& effects) {
   sim::SoilDistribution belief = catalogue.soils.find(soil.base)->second;
-  const sim::SoilDistribution& unknown = catalogue.soils.find(kUnknownGround)->second;
+  const sim::SoilDistribution& unknown = catalogue.soils.find(unmapped)->second;
   if (confidence < 1.0 && belief.name != unknown.name && belief.alternatives.empty() &&
       belief.mean.slip_curve == nullptr) {
     double pressure = 0.0, strength = 0.0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,14 @@ namespace slipway::api {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Beliefs about unmapped ground of other bodies than Mars.
+struct UnmappedGround {
+  std::string_view belief;
+  double least_gravity_m_s2, most_gravity_m_s2;
+};
+constexpr std::array kUnmappedElsewhere{UnmappedGround{"unknown_ground_moon", 1.5, 1.75},
+                                        UnmappedGround{"unknown_ground_earth", 9.7, 9.9}};
 
 // Sorted, so that faults come in the same order everywhere.
 std::vector<fs::path> entries_of(const fs::path& folder) {
@@ -186,6 +195,12 @@ Catalogue with_terrains(Catalogue catalogue, const fs::path& folder) {
   return catalogue;
 }
 
+std::string_view unknown_ground_at(double gravity_m_s2) {
+  for (const UnmappedGround& body : kUnmappedElsewhere)
+    if (gravity_m_s2 >= body.least_gravity_m_s2 && gravity_m_s2 <= body.most_gravity_m_s2) return body.belief;
+  return kUnknownGround;
+}
+
 Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& format) {
   Catalogue catalogue;
   catalogue.soil_format = &format;
@@ -197,7 +212,15 @@ Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& fo
   if (catalogue.rovers.empty()) missing.push_back({"rovers#", "there is no rover"});
   if (!catalogue.soils.contains(kUnknownGround))
     missing.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
-  if (missing.empty()) return catalogue;
+  if (missing.empty()) {
+    for (const UnmappedGround& body : kUnmappedElsewhere) {
+      if (catalogue.soils.contains(body.belief)) continue;
+      sim::SoilDistribution belief = catalogue.soils.find(kUnknownGround)->second;
+      belief.name = body.belief;
+      catalogue.soils.emplace(body.belief, std::move(belief));
+    }
+    return catalogue;
+  }
   for (const LeftOutFile& file : catalogue.left_out)
     missing.insert(missing.end(), file.faults.begin(), file.faults.end());
   return fail(ErrorCode::kUnreadableData,

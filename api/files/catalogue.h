@@ -15,8 +15,12 @@
 
 namespace slipway::api {
 
-// The belief about ground that no map names.
+// The belief about ground of Mars that no map names.
 inline constexpr std::string_view kUnknownGround = "unknown_ground";
+
+// The belief about ground that no map names, on the body of this gravity: that of Mars, or
+// unknown_ground_moon or unknown_ground_earth.
+std::string_view unknown_ground_at(double gravity_m_s2);
 
 // A file of the data folder that is not used, since it has faults. Their pointers begin with the file,
 // "rovers/mer-class.json#/mass_kg".
@@ -37,7 +41,8 @@ struct Catalogue {
 };
 
 // Loads rovers/*.json, soils/*.json, rules/*.json and terrains/*/terrain.json under the folder. Files with
-// faults are left out, and so is what needs them. Errors: unreadable_data where no rover is left or no soil
+// faults are left out, and so is what needs them. Where the folder has no belief about unmapped ground of the
+// Moon or of Earth, that of Mars stands in. Errors: unreadable_data where no rover is left or no soil
 // of the name kUnknownGround, with the faults of all files.
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());

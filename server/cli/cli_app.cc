@@ -20,6 +20,7 @@
 #include "server/cli/plan_command.h"
 #include "server/cli/predict_command.h"
 #include "server/cli/serve_command.h"
+#include "server/cli/steps_command.h"
 #include "server/cli/terrain_command.h"
 #include "server/cli/test_model_command.h"
 #include "server/cli/tune_command.h"
@@ -71,6 +72,7 @@ int run_command_line(int argc, char** argv) {
   add_terrain_command(app, run);
   add_map_command(app, run);
   add_data_command(app, run);
+  add_steps_command(app, run);
   add_validate_command(app, run);
   add_worlds_command(app, run);
   add_catalogue_commands(app, run);

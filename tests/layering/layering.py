@@ -12,7 +12,7 @@ MAY_SEE = {
     "core": set(),
     "dem": {"core"},
     "sim": {"core"},
-    "steps": {"core"},
+    "steps": {"core", "sim"},
     "planner": {"core", "dem", "sim"},
     "gap": {"core", "sim"},
     "campaign": {"core", "dem", "sim", "steps", "planner", "gap"},
@@ -29,7 +29,7 @@ FOLDERS = {
     "planner": ["problem", "search", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "uploads", "requests", "jobs",
-            "documents", "terrain_views", "report", "maps", "."],
+            "documents", "steps", "terrain_views", "report", "maps", "."],
     "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators", "worlds"}, "."],
     "server": ["http", "cli/terminal", "cli/inquiry", "cli", {"cli/steps", "cli/study"}, "."],
 }

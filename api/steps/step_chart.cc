@@ -1,0 +1,58 @@
+#include "api/steps/step_chart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "api/chart/chart.h"
+#include "core/angle.h"
+
+namespace slipway::api {
+namespace {
+
+double median(std::vector<double> of) {
+  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
+  std::nth_element(of.begin(), middle, of.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::string step_chart(const StepComparison& comparison) {
+  struct Forecasts {
+    std::vector<double> p05, p50, p95;
+  };
+  std::map<int, Forecasts> by_degree;
+  ChartSeries measured{"measured, below 0.2", ChartMark::kDots, {}, {}, 0};
+  ChartSeries large{"measured, above 0.2", ChartMark::kPoints, {}, {}, 1};
+  for (const steps::ScoredSol& sol : comparison.sols) {
+    for (std::size_t i = 0; i < sol.steps.size(); ++i) {
+      const double climb_deg = deg_from_rad(sol.steps[i].pitch_rad);
+      ChartSeries& series = sol.steps[i].slip > 0.2 ? large : measured;
+      series.x.push_back(climb_deg);
+      series.y.push_back(sol.steps[i].slip);
+      Forecasts& here = by_degree[static_cast<int>(std::lround(climb_deg))];
+      here.p05.push_back(sol.forecast.steps[i].slip_p05);
+      here.p50.push_back(sol.forecast.steps[i].slip_p50);
+      here.p95.push_back(sol.forecast.steps[i].slip_p95);
+    }
+  }
+  ChartBand band{"90 % of forecasts", {}, {}, {}, 2};
+  ChartSeries middle{"median of forecasts", ChartMark::kLine, {}, {}, 2};
+  for (const auto& [degree, forecasts] : by_degree) {
+    band.x.push_back(degree);
+    band.lower.push_back(median(forecasts.p05));
+    band.upper.push_back(median(forecasts.p95));
+    middle.x.push_back(degree);
+    middle.y.push_back(median(forecasts.p50));
+  }
+  const std::array charts{Chart{.title = "",
+                                .x = {.title = "climb along the step, deg"},
+                                .y = {.title = "slip of the step"},
+                                .bands = {std::move(band)},
+                                .series = {std::move(middle), std::move(measured), std::move(large)}}};
+  return draw_charts("Slip measured on Mars and forecast", charts);
+}
+
+}  // namespace slipway::api
