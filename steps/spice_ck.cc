@@ -10,6 +10,8 @@ constexpr int kInstants = 1, kConstantRate = 2, kInterpolated = 3;
 constexpr std::size_t kQuaternionWords = 4, kRateWords = 3, kDirectoryEvery = 100;
 // Quaternions are written with seven digits or more.
 constexpr double kUnitTolerance = 1e-3;
+// No clock counts and no body turns beyond these: such numbers come of a damaged file.
+constexpr double kMostTicks = 1e18, kMostTurn = 1e9;
 
 std::size_t directory_of(std::size_t n) {
   return (n - 1) / kDirectoryEvery;
@@ -38,7 +40,7 @@ std::optional<Layout> layout_of(int type, bool rates, const std::vector<double>&
     // Quaternion, angular velocity and seconds a tick, then starts and ends; the count follows from the
     // length.
     at.record_words = kQuaternionWords + kRateWords + 1;
-    at.records = (kDirectoryEvery * size + 1) / (kDirectoryEvery * 10 + 1);
+    at.records = kDirectoryEvery * (size + 10) / (kDirectoryEvery * 10 + 1);
     if (at.records == 0) return std::nullopt;
     at.starts = (at.record_words + 1) * at.records;
     length = at.starts + at.records + directory_of(at.records);
@@ -67,7 +69,8 @@ Result<void> read_records(const DafFile& daf, const DafArray& array, const std::
     if (!(std::abs(q.norm() - 1.0) < kUnitTolerance))
       return daf.refuse(array, k * at.record_words, "a quaternion is not of unit length");
     const double tick = words[at.ticks + k];
-    if (!std::isfinite(tick)) return daf.refuse(array, at.ticks + k, "a tick is no finite number");
+    if (!(std::abs(tick) <= kMostTicks))
+      return daf.refuse(array, at.ticks + k, "a tick is no number or beyond 1e18");
     if (k > 0 && tick <= segment.records.back().tick)
       return daf.refuse(array, at.ticks + k, "a tick is not above the one that precedes it");
     segment.records.push_back({tick, q.normalized()});
@@ -93,8 +96,9 @@ Result<void> read_turns(const DafFile& daf, const DafArray& array, const std::ve
     const double* const w = words.data() + k * at.record_words + kQuaternionWords;
     const Eigen::Vector3d turn = Eigen::Vector3d(w[0], w[1], w[2]) * w[kRateWords];
     const double end = words[at.starts + k];
-    if (!turn.allFinite())
-      return daf.refuse(array, k * at.record_words + kQuaternionWords, "a rate is no finite number");
+    if (!(turn.norm() <= kMostTurn))
+      return daf.refuse(array, k * at.record_words + kQuaternionWords,
+                        "a rate is no number or beyond 1e9 rad");
     if (!(end >= segment.records[k].tick) || !std::isfinite(end))
       return daf.refuse(array, at.starts + k, "an interval ends before it starts");
     segment.turn_per_tick.push_back(turn);

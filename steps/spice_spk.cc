@@ -9,6 +9,8 @@ constexpr int kEqualSteps = 8, kLagrange = 9, kHermite = 13;
 constexpr std::size_t kStateWords = 6;
 constexpr std::size_t kDirectoryEvery = 100;
 constexpr double kMetresOfKilometre = 1000.0;
+// What lies beyond is neither in the solar system nor in its time: such numbers come of a damaged file.
+constexpr double kFarthestM = 1e15, kMostSeconds = 1e12;
 
 // How many states a segment says to have, where that agrees with its length; 0 where it does not.
 std::size_t states_of(int type, const std::vector<double>& words) {
@@ -41,14 +43,15 @@ Result<SpkSegment> read_spk_segment(const DafFile& daf, const DafArray& array) {
     SpkState& state = segment.states[k];
     for (std::size_t c = 0; c < 3; ++c) {
       state.position_m[c] = kMetresOfKilometre * words[kStateWords * k + c];
-      if (!std::isfinite(state.position_m[c]))
-        return daf.refuse(array, kStateWords * k + c, "a position is no finite number");
+      if (!(std::abs(state.position_m[c]) <= kFarthestM))
+        return daf.refuse(array, kStateWords * k + c, "a position is no number or beyond the solar system");
     }
     const std::size_t times = kStateWords * n;
     const std::size_t at = type == kEqualSteps ? times : times + k;
     state.et_s =
         type == kEqualSteps ? words[times] + static_cast<double>(k) * words[times + 1] : words[times + k];
-    if (!std::isfinite(state.et_s)) return daf.refuse(array, at, "a time is no finite number");
+    if (!(std::abs(state.et_s) <= kMostSeconds))
+      return daf.refuse(array, at, "a time is no number or beyond 1e12 s");
     if (k > 0 && state.et_s < segment.states[k - 1].et_s)
       return daf.refuse(array, at, "a time is before the one that precedes it");
   }

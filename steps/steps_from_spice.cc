@@ -8,6 +8,7 @@
 
 #include "steps/kernel_set.h"
 #include "steps/slip_steps_csv.h"
+#include "steps/step_columns.h"
 #include "steps/step_finder.h"
 
 namespace slipway::steps {
@@ -56,10 +57,21 @@ class StepMaker {
     // Across the travel, to its right, on the plane on which the body stands.
     step.side_m = found.correction_m.dot(down.cross(along).normalized());
     write_place(found, site, step);
+    if (!may_be_in_a_table(step)) return ++summary_.out_of_range, std::nullopt;
     return step;
   }
 
  private:
+  // Whether the reader of tables would take it: a kernel may say anything.
+  static bool may_be_in_a_table(const SlipStep& step) {
+    const auto within = [](StepColumn column, double value) {
+      return value >= kStepColumnRows[column].lowest && value <= kStepColumnRows[column].highest;
+    };
+    return within(kSol, step.sol) && within(kSide, *step.side_m) && within(kDriveTime, *step.drive_s) &&
+           within(kSiteNorth, *step.site_north_m) && within(kSiteEast, *step.site_east_m) &&
+           within(kSiteDown, *step.site_down_m);
+  }
+
   static void write_attitude(const BodyAxes& start, const BodyAxes& end, const Eigen::Vector3d& along,
                              SlipStep& step) {
     const bool backward = end.forward().dot(along) < 0.0;
@@ -91,8 +103,14 @@ class StepMaker {
     const double radius_m = std::hypot(x, y, z);
     const double latitude = std::atan2(z, std::hypot(x, y));
     const double north_m = (*offset)[0] + *step.site_north_m, east_m = (*offset)[1] + *step.site_east_m;
-    step.x_eqc_m = options_.map_radius_m * (std::atan2(y, x) + east_m / (radius_m * std::cos(latitude)));
-    step.y_eqc_m = options_.map_radius_m * (latitude + north_m / radius_m);
+    const double map_x_m =
+        options_.map_radius_m * (std::atan2(y, x) + east_m / (radius_m * std::cos(latitude)));
+    const double map_y_m = options_.map_radius_m * (latitude + north_m / radius_m);
+    // A landing site at a pole or in the planet's centre has no such map.
+    const double widest_m = kStepColumnRows[kXEqc].highest;
+    if (!(std::abs(map_x_m) <= widest_m && std::abs(map_y_m) <= widest_m)) return;
+    step.x_eqc_m = map_x_m;
+    step.y_eqc_m = map_y_m;
   }
 
   const KernelSet& kernels_;

@@ -54,8 +54,9 @@ struct SpiceStepSummary {
   std::size_t corrections = 0;          // jumps after a drive and a rest, of which steps are made:
   std::size_t jumps_without_drive = 0;  // jumps that no drive and no rest precede
   std::size_t too_short = 0, too_long = 0, off_axis = 0;
-  std::size_t no_slip = 0;   // the ratio is outside of what a slip can be
-  std::size_t repeated = 0;  // in several files
+  std::size_t no_slip = 0;       // the ratio is outside of what a slip can be
+  std::size_t out_of_range = 0;  // a time or a place that no table of steps may have
+  std::size_t repeated = 0;      // in several files
   std::size_t steps = 0, steps_with_attitude = 0;
 };
 

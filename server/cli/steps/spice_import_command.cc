@@ -55,6 +55,7 @@ std::string left_out_words(const steps::SpiceStepSummary& s) {
   add("steps", s.too_long, "longer than 2.2 m");
   add("steps", s.off_axis, "more than 14 deg off the body's axis");
   add("steps", s.no_slip, "with a ratio that is no slip");
+  add("steps", s.out_of_range, "with a time or place that no table may have");
   add("steps", s.repeated, "which stand in several files");
   return table.print();
 }
