@@ -1,7 +1,10 @@
 #include "api/ground_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
+#include "planner/drive_so_far_evidence.h"
 #include "planner/predict_path.h"
 
 namespace slipway::api {
@@ -30,83 +33,122 @@ bool counts(const PastDrive& drive, int as_of_sol) {
   return drive.sol < as_of_sol && drive.outcome != PastOutcome::kNoReport;
 }
 
-}  // namespace
+// The stream of renewals among those of a seed.
+constexpr std::uint64_t kRenewals = 1ULL << 40U;
 
-double effective_draws(const std::vector<sim::ConditionedDraw>& draws, double power) {
-  double sum = 0.0, squares = 0.0;
-  for (const sim::ConditionedDraw& draw : draws) {
-    sum += std::pow(draw.weight, power);
-    squares += std::pow(draw.weight, 2.0 * power);
-  }
-  return sum * sum / squares;
-}
-
-void flatten(std::vector<sim::ConditionedDraw>& draws) {
-  const double wanted = kMinEffective * static_cast<double>(draws.size());
-  double low = 0.0, high = 1.0;
-  double power = 1.0;
-  if (effective_draws(draws, 1.0) < wanted) {
-    constexpr int kHalvings = 40;
-    for (int k = 0; k < kHalvings; ++k) {
-      power = 0.5 * (low + high);
-      (effective_draws(draws, power) < wanted ? high : low) = power;
-    }
-    power = low;
-  }
-  double sum = 0.0;
-  for (sim::ConditionedDraw& draw : draws) sum += draw.weight = std::pow(draw.weight, power);
-  for (sim::ConditionedDraw& draw : draws) draw.weight *= static_cast<double>(draws.size()) / sum;
-}
-
-std::vector<planner::Waypoint> places_of(const DriveOutcomeTable& table, int as_of_sol) {
-  std::vector<planner::Waypoint> places;
-  for (const PastDrive& drive : table.drives)
-    if (counts(drive, as_of_sol)) places.insert(places.end(), drive.path.begin(), drive.path.end());
-  return places;
-}
-
-Result<void> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
-                             int as_of_sol, Progress& progress, ConditionedGround& ground) {
-  ground.draws.resize(static_cast<std::size_t>(problem.risk.draws));
-  for (; ground.rows < table.drives.size() && table.drives[ground.rows].sol < as_of_sol; ++ground.rows) {
-    const PastDrive& drive = table.drives[ground.rows];
-    if (!counts(drive, as_of_sol)) continue;
-    const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
-    if (path.size() < 2) continue;
-    const bool stopped = drive.outcome == PastOutcome::kSlipStop;
-    const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};
-    if (const auto done = planner::condition_draws(problem, path, report, progress, ground.draws); !done) {
-      if (done.error().code == ErrorCode::kCancelled) return fail(done.error());
-      continue;  // a wheel of this rover meets ground that is not known
-    }
-    ++ground.drives;
-  }
+// What can't be simulated tells nothing: a wheel of this rover meets ground that is not known, or none.
+Result<void> unless_cancelled(const Result<void>& done) {
+  if (!done && done.error().code == ErrorCode::kCancelled) return done;
   return {};
 }
 
-GroundEvidence evidence_of(ConditionedGround ground) {
-  flatten(ground.draws);
-  return {std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(ground.draws)), ground.drives};
+// Conditions on the next drive's outcome. Where its slip was measured the steps say more than that it went
+// on.
+Result<void> learn_drive(const planner::PlanProblem& problem, const PastEvidence& past, Progress& progress,
+                         ConditionedGround& ground) {
+  const PastDrive& drive = past.outcomes.drives[ground.rows++];
+  const bool stopped = drive.outcome == PastOutcome::kSlipStop;
+  const bool measured = std::any_of(past.steps.begin(), past.steps.end(),
+                                    [&](const steps::SlipStep& step) { return step.sol == drive.sol; });
+  if (drive.outcome == PastOutcome::kNoReport || (measured && !stopped)) return {};
+  const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
+  if (path.size() < 2) return {};
+  const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};
+  const auto done = planner::condition_draws(problem, path, report, progress, ground.draws);
+  if (done) ++ground.drives;
+  return unless_cancelled(done);
+}
+
+// Conditions on the next measured steps that follow each other over some metres.
+Result<void> learn_stretch(const planner::PlanProblem& problem, const std::vector<steps::SlipStep>& steps,
+                           Progress& progress, ConditionedGround& ground) {
+  constexpr double kLength_m = 4.0, kApart_m = 1.5;
+  planner::MeasuredWay way;
+  const int sol = steps[ground.steps].sol;
+  for (; ground.steps < steps.size() && way.measured.rolled_m < kLength_m; ++ground.steps) {
+    const steps::SlipStep& step = steps[ground.steps];
+    if (step.sol != sol) break;
+    if (!step.x_eqc_m || !step.y_eqc_m || !step.course_rad) {
+      if (way.along.empty()) continue;
+      break;
+    }
+    const planner::Waypoint from{*step.x_eqc_m, *step.y_eqc_m, {}};
+    if (!way.along.empty() &&
+        std::hypot(from.x_m - way.along.back().x_m, from.y_m - way.along.back().y_m) > kApart_m)
+      break;
+    const double come_m = std::max(1.0 - step.slip, 0.0) * step.odometry_m;
+    if (way.along.empty()) way.along.push_back(from);
+    way.along.push_back({from.x_m + come_m * std::sin(*step.course_rad),
+                         from.y_m + come_m * std::cos(*step.course_rad),
+                         {}});
+    way.measured.rolled_m += step.odometry_m;
+    way.measured.come_m += come_m;
+  }
+  way.along = on_the_map(problem, way.along);
+  if (way.along.size() < 2) return {};
+  const auto done = planner::condition_on_way(problem, way, kTriesOfMeasured, progress, ground.draws);
+  if (done) ground.measured_m += way.measured.rolled_m;
+  return unless_cancelled(done);
+}
+
+}  // namespace
+
+std::vector<planner::Waypoint> places_of(const PastEvidence& past, int as_of_sol) {
+  std::vector<planner::Waypoint> places;
+  for (const PastDrive& drive : past.outcomes.drives)
+    if (counts(drive, as_of_sol)) places.insert(places.end(), drive.path.begin(), drive.path.end());
+  for (const steps::SlipStep& step : past.steps)
+    if (step.sol < as_of_sol && step.x_eqc_m && step.y_eqc_m)
+      places.push_back({*step.x_eqc_m, *step.y_eqc_m, {}});
+  return places;
+}
+
+Result<void> condition_draws(const planner::PlanProblem& problem, const PastEvidence& past, int as_of_sol,
+                             Progress& progress, ConditionedGround& ground) {
+  ground.draws.resize(static_cast<std::size_t>(problem.risk.draws));
+  const auto& drives = past.outcomes.drives;
+  for (;;) {
+    const bool has_drive = ground.rows < drives.size() && drives[ground.rows].sol < as_of_sol;
+    const bool has_step = ground.steps < past.steps.size() && past.steps[ground.steps].sol < as_of_sol;
+    if (!has_drive && !has_step) return {};
+    const bool is_step = has_step && (!has_drive || past.steps[ground.steps].sol <= drives[ground.rows].sol);
+    if (const auto done = is_step ? learn_stretch(problem, past.steps, progress, ground)
+                                  : learn_drive(problem, past, progress, ground);
+        !done)
+      return done;
+    if (sim::effective_draws(ground.draws) < 0.5 * static_cast<double>(ground.draws.size()))
+      ground.draws = sim::renewed(ground.draws, ground.draws.size(),
+                                  random_key(problem.risk.seed, kRenewals + ground.rows + ground.steps));
+  }
+}
+
+GroundEvidence evidence_of(const ConditionedGround& ground, std::size_t count, std::uint64_t seed) {
+  return {std::make_shared<const std::vector<sim::ConditionedDraw>>(
+              sim::renewed(ground.draws, count, random_key(seed, kRenewals))),
+          ground.drives, ground.measured_m};
 }
 
 Result<GroundEvidence> ConditionedGroundCache::get(const std::string& key,
                                                    const planner::PlanProblem& problem,
-                                                   const DriveOutcomeTable& table, int as_of_sol,
-                                                   Progress& progress) {
+                                                   const PastEvidence& past, int as_of_sol,
+                                                   std::size_t count, Progress& progress) {
   ConditionedGround ground;
+  const auto is_past = [&](int sol) { return sol < as_of_sol; };
   {
     const std::lock_guard lock(mutex_);
     const bool serves = ground_ && !key.empty() && key_ == key &&
-                        (ground_->rows == 0 || table.drives[ground_->rows - 1].sol < as_of_sol);
+                        (ground_->rows == 0 || is_past(past.outcomes.drives[ground_->rows - 1].sol)) &&
+                        (ground_->steps == 0 || is_past(past.steps[ground_->steps - 1].sol));
     if (serves) ground = *ground_;
   }
-  if (const auto done = condition_draws(problem, table, as_of_sol, progress, ground); !done)
+  if (const auto done = condition_draws(problem, past, as_of_sol, progress, ground); !done)
     return fail(done.error());
-  if (key.empty()) return evidence_of(std::move(ground));
-  const std::lock_guard lock(mutex_);
-  key_ = key;
-  ground_ = std::make_shared<const ConditionedGround>(ground);
-  return evidence_of(std::move(ground));
+  if (!key.empty()) {
+    const std::lock_guard lock(mutex_);
+    key_ = key;
+    ground_ = std::make_shared<const ConditionedGround>(ground);
+  }
+  return evidence_of(ground, count, problem.risk.seed);
 }
 
 }  // namespace slipway::api

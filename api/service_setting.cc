@@ -11,6 +11,7 @@
 #include "api/requests/soil_regions.h"
 #include "api/service.h"
 #include "api/soil_beliefs.h"
+#include "core/random.h"
 #include "planner/judge/deciding_draws.h"
 
 namespace slipway::api {
@@ -93,7 +94,8 @@ Provenance provenance_of(const TerrainSite& site, const Legend& legend, const pl
 std::vector<planner::Waypoint> places_to_read(const TerrainSite& site, const DriveAssumptions& drive,
                                               std::vector<planner::Waypoint> places) {
   if (drive.as_of_sol) {
-    const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
+    const std::vector<planner::Waypoint> past =
+        places_of({site.outcomes(), site.steps()}, *drive.as_of_sol);
     places.insert(places.end(), past.begin(), past.end());
   }
   if (drive.drive_so_far)
@@ -153,13 +155,17 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   setting.provenance.relief = problem.risk.relief;
   if (drive.as_of_sol) {
     progress.report("conditioning the ground on drives of the past", 0.0);
-    problem.risk.draws = drive.draws.value_or(kWeighedDraws);
-    problem.risk.max_draws = 0;
-    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, problem.risk.draws),
-                                            problem, site.outcomes(), *drive.as_of_sol, progress);
+    // Draws are conditioned on the past, and renewed to as many as a check takes at most.
+    planner::PlanProblem past = problem;
+    past.risk.draws = drive.draws.value_or(kWeighedDraws);
+    const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
+    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
+                                            {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted,
+                                            progress);
     if (!evidence) return fail(evidence.error());
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
+    setting.provenance.measured_m = evidence->measured_m;
   }
   if (drive.drive_so_far)
     if (auto learnt = learn(drive, progress, setting); !learnt) return fail(learnt.error());
@@ -177,12 +183,11 @@ Result<void> Service::learn(const DriveAssumptions& drive, Progress& progress, S
         static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
   auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
   if (!stretches) return fail(stretches.error());
-  flatten(draws);
-  const double effective = effective_draws(draws);
-  problem.risk.draws = static_cast<int>(draws.size());
-  problem.risk.max_draws = 0;
-  setting.provenance.learnt = LearntDrive{std::move(*stretches), problem.risk.draws, effective};
-  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(draws));
+  setting.provenance.learnt =
+      LearntDrive{std::move(*stretches), static_cast<int>(draws.size()), sim::effective_draws(draws)};
+  const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
+  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(
+      sim::renewed(draws, wanted, random_key(problem.risk.seed, wanted)));
   return {};
 }
 

@@ -29,6 +29,28 @@ double spacing_m(const PlanProblem& problem) {
   return kSpacings * sim::max_station_spacing_m(*problem.rover);
 }
 
+// Along places of the map, as straight lines.
+std::vector<sim::PathStation> stations_along(const PlanProblem& problem, const std::vector<Waypoint>& along,
+                                             bool backwards) {
+  const double turned_rad = backwards ? rad_from_deg(180.0) : 0.0;
+  std::vector<sim::PathStation> stations;
+  double driven_m = 0.0;
+  for (std::size_t k = 1; k < along.size(); ++k) {
+    const Waypoint &a = along[k - 1], &b = along[k];
+    const double length_m = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    const double yaw_rad = wrapped_rad(std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) + turned_rad);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / spacing_m(problem))));
+    for (int i = k == 1 ? 0 : 1; i <= pieces; ++i) {
+      const double share = static_cast<double>(i) / pieces;
+      stations.push_back({.pose = {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m), yaw_rad},
+                          .distance_m = driven_m + share * length_m,
+                          .backwards = backwards});
+    }
+    driven_m += length_m;
+  }
+  return stations;
+}
+
 // Along the stretch's positions, as straight lines. A rover that hardly comes forward stands at the last one.
 std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const DriveSoFar& drive,
                                           const TelemetryStretch& stretch) {
@@ -42,21 +64,9 @@ std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const Driv
     stations.push_back({.pose = {end.x_m, end.y_m, wrapped_rad(yaw_rad)}, .backwards = stretch.backwards});
     return stations;
   }
-  double driven_m = 0.0;
-  for (std::size_t k = 1; k < stretch.rows.size(); ++k) {
-    const TelemetryRow &a = drive.rows[stretch.rows[k - 1]], &b = drive.rows[stretch.rows[k]];
-    const double length_m = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-    const double yaw_rad = wrapped_rad(std::atan2(b.y_m - a.y_m, b.x_m - a.x_m) + turned_rad);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / spacing_m(problem))));
-    for (int i = k == 1 ? 0 : 1; i <= pieces; ++i) {
-      const double share = static_cast<double>(i) / pieces;
-      stations.push_back({.pose = {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m), yaw_rad},
-                          .distance_m = driven_m + share * length_m,
-                          .backwards = stretch.backwards});
-    }
-    driven_m += length_m;
-  }
-  return stations;
+  std::vector<Waypoint> along;
+  for (const std::size_t row : stretch.rows) along.push_back({drive.rows[row].x_m, drive.rows[row].y_m, {}});
+  return stations_along(problem, along, stretch.backwards);
 }
 
 // Leaves out the lightest draws, which together have less than a thousandth of the weight.
@@ -122,6 +132,17 @@ int draws_for(const PlanProblem& problem, const DriveSoFar& drive) {
   for (const TelemetryStretch& stretch : stretches_of(drive, wheel_names(problem)))
     stations += 2.0 + stretch.measured.come_m / spacing_m(problem);
   return static_cast<int>(std::clamp(kMaxBalances / (kTries * stations), kMinDraws, kMaxDraws));
+}
+
+Result<void> condition_on_way(const PlanProblem& problem, const MeasuredWay& way, int tries,
+                              Progress& progress, std::vector<sim::ConditionedDraw>& draws) {
+  const TerrainGround ground(problem.terrain, problem.soil_map);
+  const auto done =
+      sim::condition_on_stretch(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs,
+                                stations_along(problem, way.along, way.backwards), way.measured, {},
+                                problem.risk, tries, problem.threads, progress, draws, problem.conditions);
+  if (!done) return fail(done.error());
+  return {};
 }
 
 Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem, const DriveSoFar& drive,

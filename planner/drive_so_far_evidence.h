@@ -27,6 +27,17 @@ Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem
                                                       Progress& progress,
                                                       std::vector<sim::ConditionedDraw>& draws);
 
+// A measured stretch of a past drive, along places of the map.
+struct MeasuredWay {
+  std::vector<Waypoint> along;  // two or more
+  bool backwards = false;
+  sim::MeasuredStretch measured;
+};
+
+// Conditions draws of the ground on one. Errors as predict_path().
+Result<void> condition_on_way(const PlanProblem& problem, const MeasuredWay& way, int tries,
+                              Progress& progress, std::vector<sim::ConditionedDraw>& draws);
+
 inline constexpr std::size_t kMaxLearntDraws = 600;
 
 }  // namespace slipway::planner

@@ -262,7 +262,7 @@ void write_provenance(Writer& w, const Provenance& p) {
   w.texts("soils", p.soils).text("unknown_soil", p.unknown_soil).text("legend", p.legend);
   w.text("soil_assumption", p.soil_assumption);
   if (!p.unseen_relief.empty()) w.text("unseen_relief", p.unseen_relief);
-  if (p.past_drives) w.whole("past_drives", *p.past_drives);
+  if (p.past_drives) w.whole("past_drives", *p.past_drives).significant("measured_m", p.measured_m);
   if (p.relief) write_relief(w, *p.relief);
   w.whole("seed", static_cast<std::int64_t>(p.seed)).end_object();
 }

@@ -44,6 +44,7 @@ struct TerrainDescription {
   ReliefValues relief;                       // drawn where a request asks for it
   std::optional<std::string> stops_file;
   std::optional<std::string> outcomes_file;  // how drives on this ground ended
+  std::optional<std::string> steps_file;     // slip that was measured on this ground
   std::optional<std::string> provenance_file;
 
   // By its name, the first where that is empty; nullptr where there is none of that name.

@@ -114,6 +114,9 @@ Result<TerrainDescription> read_terrain_file(std::string_view bytes) {
   read_file_name(reader, "drive_outcomes", kOptional, file);
   if (!file.empty()) terrain.outcomes_file = file;
   file.clear();
+  read_file_name(reader, "measured_slip", kOptional, file);
+  if (!file.empty()) terrain.steps_file = file;
+  file.clear();
   read_file_name(reader, "provenance", kOptional, file);
   if (!file.empty()) terrain.provenance_file = file;
   reader.refuse_unknown();

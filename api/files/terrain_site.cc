@@ -13,6 +13,7 @@
 #include "api/files/terrain_file.h"
 #include "api/json/faults.h"
 #include "core/sha256.h"
+#include "steps/slip_steps_csv.h"
 
 namespace slipway::api {
 namespace {
@@ -47,6 +48,7 @@ void check_files(const std::filesystem::path& folder, const TerrainDescription& 
   if (terrain.soil_source == SoilSource::kPolygons) check("/soil/polygons", terrain.soil_file);
   if (terrain.stops_file) check("/stops", *terrain.stops_file);
   if (terrain.outcomes_file) check("/drive_outcomes", *terrain.outcomes_file);
+  if (terrain.steps_file) check("/measured_slip", *terrain.steps_file);
   if (terrain.provenance_file) check("/provenance", *terrain.provenance_file);
 }
 
@@ -128,6 +130,16 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
         faults.push_back({"/drive_outcomes", outcomes.error().detail});
       }
     }
+    if (site->description_.steps_file) {
+      const std::string& file = *site->description_.steps_file;
+      const auto table = read_data_file(folder / file);
+      auto steps = table ? steps::read_slip_steps(*table, file)
+                         : Result<std::vector<steps::SlipStep>>(fail(table.error()));
+      if (steps)
+        site->steps_ = std::move(*steps);
+      else
+        faults.push_back({"/measured_slip", steps.error().detail});
+    }
   }
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return std::shared_ptr<const TerrainSite>(std::move(site));
@@ -207,7 +219,8 @@ Result<std::optional<std::string>> TerrainSite::text_of(const std::optional<std:
 Result<std::vector<TerrainFile>> TerrainSite::files() const {
   std::vector<std::string> names{"terrain.json", description_.elevation_file};
   if (description_.soil_source != SoilSource::kNone) names.push_back(description_.soil_file);
-  for (const auto& file : {description_.stops_file, description_.outcomes_file, description_.provenance_file})
+  for (const auto& file : {description_.stops_file, description_.outcomes_file, description_.steps_file,
+                           description_.provenance_file})
     if (file) names.push_back(*file);
   if (is_plain_file(folder_ / kLicenceFile)) names.emplace_back(kLicenceFile);
   std::vector<TerrainFile> files;

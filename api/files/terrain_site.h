@@ -16,6 +16,7 @@
 #include "dem/elevation_source.h"
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "steps/slip_step.h"
 
 namespace slipway::api {
 
@@ -45,6 +46,8 @@ class TerrainSite {
   const std::vector<Stop>& stops() const { return stops_; }
   // Drives of the past on this ground; none where the terrain has no such table.
   const DriveOutcomeTable& outcomes() const { return outcomes_; }
+  // Slip that was measured on this ground, by sol; none where the terrain has no such table.
+  const std::vector<steps::SlipStep>& steps() const { return steps_; }
 
   // The ground over the extent, which is clipped to the terrain, by one of its legends. Errors as
   // dem::ElevationSource::read.
@@ -84,6 +87,7 @@ class TerrainSite {
   std::shared_ptr<const dem::ElevationSource> elevation_;
   std::vector<Stop> stops_;
   DriveOutcomeTable outcomes_;
+  std::vector<steps::SlipStep> steps_;
   mutable std::mutex kept_mutex_;
   mutable std::map<std::string, std::shared_ptr<const dem::SoilMap>> kept_soils_;  // by the legend's name
 };

@@ -42,6 +42,7 @@ struct Provenance {
   std::string unseen_relief = {};  // what cells of the map's size can't show; empty: of small ones
   // Where drives of the past weigh the draws: how many, and what is left of the draws.
   std::optional<int> past_drives = {};
+  double measured_m = 0.0;  // over which slip of the past was measured, that the draws take into account
   std::optional<LearntDrive> learnt = {};
   std::shared_ptr<const sim::ReliefSpread> relief = {};  // that the draws have; empty: the map's own
 };

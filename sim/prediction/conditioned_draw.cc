@@ -16,8 +16,16 @@ namespace {
 RedrawnCells redraw(const ConditionedDraw& draw, const std::unordered_set<std::uint64_t>& met, int tried) {
   RedrawnCells redrawn = draw.redrawn;
   for (const std::uint64_t cell : met)
-    if (!draw.met.contains(cell)) redrawn[cell] = random_key(cell, static_cast<std::uint64_t>(tried));
+    if (!draw.met.contains(cell))
+      redrawn.keys[cell] = random_key(draw.redrawn.key_of(cell), static_cast<std::uint64_t>(tried));
   return redrawn;
+}
+
+// The radius that odometry reckons with over the true one, mean of the wheels.
+double reckoned_over_true(const RoverModel& rover) {
+  double sum = 0.0;
+  for (const WheelModel& wheel : rover.wheels) sum += wheel.reckoned_radius_m() / wheel.radius_m;
+  return sum / static_cast<double>(rover.wheels.size());
 }
 
 bool is_all_known(const ConditionedDraw& draw, const std::unordered_set<std::uint64_t>& met) {
@@ -51,6 +59,38 @@ void resample(std::uint64_t key, int most_tries, const Progress& progress, Condi
 }
 
 }  // namespace
+
+double effective_draws(const std::vector<ConditionedDraw>& draws) {
+  double sum = 0.0, squares = 0.0;
+  for (const ConditionedDraw& draw : draws) {
+    sum += draw.weight;
+    squares += draw.weight * draw.weight;
+  }
+  return squares > 0.0 ? sum * sum / squares : 0.0;
+}
+
+std::vector<ConditionedDraw> renewed(const std::vector<ConditionedDraw>& draws, std::size_t count,
+                                     std::uint64_t key) {
+  double sum = 0.0;
+  for (const ConditionedDraw& draw : draws) sum += draw.weight;
+  std::vector<ConditionedDraw> out;
+  double passed = 0.0;
+  std::size_t from = 0;
+  const double first = random_uniform(key, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double wanted = sum * (static_cast<double>(k) + first) / static_cast<double>(count);
+    while (from + 1 < draws.size() && passed + draws[from].weight < wanted) passed += draws[from++].weight;
+    ConditionedDraw& copy = out.emplace_back(draws[from]);
+    copy.number = draws[from].number.value_or(from);
+    copy.weight = 1.0;
+    for (const std::uint64_t cell : copy.met) copy.redrawn.keys.try_emplace(cell, draws[from].redrawn.key_of(cell));
+    copy.redrawn.renewal = random_bits(key, k + 1) >> 33U;
+  }
+  // In an order in which the first of them are as good as any [Fisher & Yates].
+  for (std::size_t k = out.size(); k > 1; --k)
+    std::swap(out[k - 1], out[random_bits(random_key(key, 1), k) % k]);
+  return out;
+}
 
 void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveReport& report,
                const Progress& progress, ConditionedDraw& draw) {
@@ -90,8 +130,9 @@ DrawnStretch StretchDriver::run(std::uint64_t key, const RedrawnCells& redrawn,
     StationState state = solver.solve(station.stance, under, station.command);
     scale_slip(slip_scale(ground, station), state);
     last_slip = state.moving() ? std::min(state.slip_ratio, 1.0) : 1.0;
+    // As odometry counts it, by the radius that it reckons with.
     come_m += station.drive_m;
-    rolled_m += station.drive_m * roll_per_way(last_slip);
+    rolled_m += station.drive_m * roll_per_way(last_slip) * reckoned_over_true(rover_);
     if (state.by_slip_curve) continue;
     ++with_current;
     for (std::size_t k = 0; k < currents.size(); ++k) currents[k] += std::abs(state.wheels[k].current_a);

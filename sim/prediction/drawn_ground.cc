@@ -21,6 +21,9 @@ enum Stream : std::uint64_t {
   kPatchOrUnit
 };
 
+// Cells are redrawn by the numbers of tries below this, and renewed by those above.
+constexpr std::uint64_t kMostTries = 1ULL << 32U;
+
 std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
   return random_key(random_key(key, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
 }
@@ -58,6 +61,12 @@ const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& a
   std::size_t last = alternatives.size() - 1;
   while (last > 0 && weight_of(last) <= 0.0) --last;
   return *alternatives[last].soil;
+}
+
+std::uint64_t RedrawnCells::key_of(std::uint64_t cell) const {
+  const auto found = keys.find(cell);
+  if (found != keys.end()) return found->second;
+  return renewal == 0 ? cell : random_key(cell, kMostTries + renewal);
 }
 
 Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z,
@@ -126,9 +135,7 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
 
 std::uint64_t DrawnGround::redrawn(std::uint64_t cell) {
   if (met_) met_->insert(cell);
-  if (!redrawn_) return cell;
-  const auto found = redrawn_->find(cell);
-  return found == redrawn_->end() ? cell : found->second;
+  return redrawn_ ? redrawn_->key_of(cell) : cell;
 }
 
 // The cell of the lattice whose jittered centre is nearest.

@@ -385,12 +385,7 @@ Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gra
   });
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   forecast.slip_ratio = spread_of(slips);
-  double sum = 0.0, squares = 0.0;
-  for (const ConditionedDraw& draw : draws) {
-    sum += draw.weight;
-    squares += draw.weight * draw.weight;
-  }
-  forecast.effective_draws = sum * sum / squares;
+  forecast.effective_draws = effective_draws(draws);
   return forecast;
 }
 

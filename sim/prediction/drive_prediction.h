@@ -244,9 +244,14 @@ struct OutcomeBars {
   bool decide(const DriveOutcomes& outcomes) const { return are_kept(outcomes) || are_passed(outcomes); }
 };
 
-// Units and patches of a draw of the ground that are another draw: of each cell's key the key that it has
-// instead.
-using RedrawnCells = std::unordered_map<std::uint64_t, std::uint64_t>;
+// Units and patches of a draw of the ground that are another draw.
+struct RedrawnCells {
+  std::unordered_map<std::uint64_t, std::uint64_t> keys = {};  // of each cell's key the key that it has instead
+  // Of a renewed draw: all cells without such a key are another draw too, one for each number; 0 of no other.
+  std::uint64_t renewal = 0;
+
+  std::uint64_t key_of(std::uint64_t cell) const;
+};
 
 // What drives of the past make of one draw of the ground (see condition_draws()).
 struct ConditionedDraw {
@@ -255,6 +260,15 @@ struct ConditionedDraw {
   RedrawnCells redrawn;
   std::unordered_set<std::uint64_t> met;  // cells on which a drive of the past was
 };
+
+// (sum of the weights)^2 / sum of their squares.
+double effective_draws(const std::vector<ConditionedDraw>& draws);
+
+// As many draws of equal weight, each copied as often as its weight has it (systematic resampling [Douc, Cappe
+// & Moulines 2005]), in a random order. Copies share the ground that past drives were on, and have ground of
+// their own everywhere else, so that what is rare there is counted by all of them.
+std::vector<ConditionedDraw> renewed(const std::vector<ConditionedDraw>& draws, std::size_t count,
+                                     std::uint64_t key);
 
 // Draws of the ground along a drive (see DrawnGround). Draw d's ground depends on (seed, d) and the place
 // only, so that routes compared under one seed meet the same ground.

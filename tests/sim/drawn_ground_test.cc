@@ -202,7 +202,7 @@ TEST(DrawnGround, RedrawnCellsChangeTheGroundThereAndNowhereElse) {
   before.note(met);
   const double here = log_k(before.at(0, 1.0, 1.0));
   RedrawnCells redrawn;
-  for (const std::uint64_t cell : met) redrawn[cell] = random_key(cell, 1);
+  for (const std::uint64_t cell : met) redrawn.keys[cell] = random_key(cell, 1);
   DrawnGround after(beliefs, 5, {}, &redrawn);
   EXPECT_NE(log_k(after.at(0, 1.0, 1.0)), here);
   EXPECT_EQ(log_k(after.at(0, 5000.0, 1.0)), log_k(before.at(0, 5000.0, 1.0)));
