@@ -6,12 +6,17 @@
 namespace slipway::steps {
 namespace {
 
-constexpr int kInstants = 1, kConstantRate = 2, kInterpolated = 3;
-constexpr std::size_t kQuaternionWords = 4, kRateWords = 3, kDirectoryEvery = 100;
+constexpr int kInstants = 1;
+constexpr int kConstantRate = 2;
+constexpr int kInterpolated = 3;
+constexpr std::size_t kQuaternionWords = 4;
+constexpr std::size_t kRateWords = 3;
+constexpr std::size_t kDirectoryEvery = 100;
 // Quaternions are written with seven digits or more.
 constexpr double kUnitTolerance = 1e-3;
 // No clock counts and no body turns beyond these: such numbers come of a damaged file.
-constexpr double kMostTicks = 1e18, kMostTurn = 1e9;
+constexpr double kMostTicks = 1e18;
+constexpr double kMostTurn = 1e9;
 
 std::size_t directory_of(std::size_t n) {
   return (n - 1) / kDirectoryEvery;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -16,12 +15,16 @@ constexpr std::size_t kRecord = 1024;
 constexpr std::size_t kWord = 8;
 constexpr std::size_t kWordsOfRecord = kRecord / kWord;
 // Two numbers and six whole numbers, two of which share a word: SPK and CK alike.
-constexpr std::int32_t kNumbers = 2, kWholeNumbers = 6;
+constexpr std::int32_t kNumbers = 2;
+constexpr std::int32_t kWholeNumbers = 6;
 constexpr std::size_t kSummaryWords = 5;
 constexpr std::size_t kSummariesOfRecord = (kWordsOfRecord - 3) / kSummaryWords;
 // The file record: its name, the counts, the chain's ends, the byte order and what a text transfer would
 // spoil.
-constexpr std::size_t kCountsAt = 8, kFirstSummaryAt = 76, kFormatAt = 88, kTransferAt = 699;
+constexpr std::size_t kCountsAt = 8;
+constexpr std::size_t kFirstSummaryAt = 76;
+constexpr std::size_t kFormatAt = 88;
+constexpr std::size_t kTransferAt = 699;
 constexpr std::string_view kTransferBegin = "FTPSTR";
 constexpr std::string_view kTransfer("FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xCE:ENDFTP", 28);
 

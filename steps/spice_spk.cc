@@ -5,12 +5,15 @@
 namespace slipway::steps {
 namespace {
 
-constexpr int kEqualSteps = 8, kLagrange = 9, kHermite = 13;
+constexpr int kEqualSteps = 8;
+constexpr int kLagrange = 9;
+constexpr int kHermite = 13;
 constexpr std::size_t kStateWords = 6;
-constexpr std::size_t kDirectoryEvery = 100;
+constexpr std::size_t kEpochsOfDirectory = 100;
 constexpr double kMetresOfKilometre = 1000.0;
 // What lies beyond is neither in the solar system nor in its time: such numbers come of a damaged file.
-constexpr double kFarthestM = 1e15, kMostSeconds = 1e12;
+constexpr double kFarthestM = 1e15;
+constexpr double kMostSeconds = 1e12;
 
 // How many states a segment says to have, where that agrees with its length; 0 where it does not.
 std::size_t states_of(int type, const std::vector<double>& words) {
@@ -19,7 +22,7 @@ std::size_t states_of(int type, const std::vector<double>& words) {
   if (!(said >= 1.0 && said <= static_cast<double>(words.size())) || said != std::floor(said)) return 0;
   const auto n = static_cast<std::size_t>(said);
   const std::size_t length =
-      type == kEqualSteps ? kStateWords * n + 4 : kStateWords * n + n + (n - 1) / kDirectoryEvery + 2;
+      type == kEqualSteps ? kStateWords * n + 4 : kStateWords * n + n + (n - 1) / kEpochsOfDirectory + 2;
   return length == words.size() ? n : 0;
 }
 

@@ -24,9 +24,9 @@ struct Token {
   bool is(std::string_view mark) const { return !quoted && text == mark; }
 };
 
-class Reader {
+class TextKernelReader {
  public:
-  Reader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+  TextKernelReader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
   Result<std::map<std::string, KernelValues>> read() {
     if (text_.find('\0') != std::string_view::npos) return refuse(1, "a NUL byte: this is no text");
@@ -119,7 +119,7 @@ class Reader {
 }  // namespace
 
 Result<std::map<std::string, KernelValues>> read_text_kernel(std::string_view text, std::string_view file) {
-  return Reader(text, file).read();
+  return TextKernelReader(text, file).read();
 }
 
 bool kernel_number(std::string_view word, double& value) {

@@ -222,6 +222,23 @@ wait "$benchmark" || status=$?
 holds '1 of 2 campaigns' "$folder/err"
 holds '1 campaigns' "$folder/out"
 
+# Steps of measured slip out of kernels; nothing that is given is passed over.
+kernels="$(dirname "$0")/../steps/data"
+expect 0 "$slipway" import spice "$kernels/msl_surf_rover_tlm_0089_0179_v1.bsp" "$kernels/msl_surf_rover_tlm_0089_0179_v1.bc" "$kernels/MSL_76_SCLKSCET.00013.tsc" --out "$folder/steps.csv"
+holds '^200 steps of sols 100 to 166, 200 of them with attitude' "$folder/out"
+holds '^# slip-steps/1' "$folder/steps.csv"
+[ "$(wc -l <"$folder/steps.csv")" = 202 ] || { echo "there are not 200 steps"; exit 1; }
+expect 0 "$slipway" import spice "$kernels/msl_surf_rover_tlm_0089_0179_v1.bsp" --out "$folder/without.csv"
+holds 'without attitudes a correction is told by its length' "$folder/out"
+expect 2 "$slipway" import spice "$kernels/msl_surf_rover_tlm_0089_0179_v1.bsp" "$kernels/msl_surf_rover_tlm_0089_0179_v1.bc" --out "$folder/none.csv"
+holds 'no clock kernel' "$folder/err"
+head -c 5000 "$kernels/msl_surf_rover_tlm_0089_0179_v1.bsp" >"$folder/cut.bsp"
+expect 2 "$slipway" import spice "$folder/cut.bsp" --out "$folder/none.csv"
+holds 'cut.bsp, byte 5000' "$folder/err"
+[ ! -e "$folder/none.csv" ] || { echo "a table was written of kernels with faults"; exit 1; }
+ignored 'mapping' "$slipway" import yard.toml spice "$folder/cut.bsp" --out "$folder/none.csv"
+ignored 'mapping' "$slipway" import
+
 # Two campaigns in one folder, and files of others in it.
 cat >"$folder/table.json" <<'TABLE'
 {"format": "campaign-table/1", "name": "small", "summary": "arcs", "sources": [], "rover": "fido-class",
