@@ -35,6 +35,14 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
   check.crab(request.manner.crab_rad, !request.keep_out.empty() || !request.keep_in.empty());
 }
 
+// What of the terrain's measured slip lies near a drive.
+std::optional<StepsNear> measured_near(const TerrainSite& site, const DriveAssumptions& drive,
+                                       const sim::DrivePrediction& prediction) {
+  std::vector<Pose2> way;
+  for (const sim::StationPrediction& station : prediction.stations) way.push_back(station.station.pose);
+  return steps_near(site.steps(), drive.as_of_sol, way);
+}
+
 // After the work it is known which tiles of a large terrain were looked at, and whether all could be read.
 Result<void> account_for_tiles(const dem::Terrain& terrain, Provenance& provenance) {
   if (const auto damage = terrain.damage()) return fail(*damage);
@@ -207,6 +215,9 @@ Result<PlanAnswer> Service::plan_within(const std::optional<dem::Extent>& window
   if (!plan) return fail(plan.error());
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
+  if (!plan->routes.empty())
+    setting->provenance.measured_near = measured_near(*catalogue()->terrains.find(request.terrain)->second,
+                                                      request.drive, plan->routes.front().prediction);
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
 
@@ -237,6 +248,8 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
                              answer.prediction, answer.dynamic ? &*answer.dynamic : nullptr, progress);
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
+  setting->provenance.measured_near = measured_near(*catalogue()->terrains.find(request.terrain)->second,
+                                                    request.drive, answer.prediction);
   answer.provenance = std::move(setting->provenance);
   return answer;
 }
@@ -264,6 +277,8 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
       planner::judge_motions(setting->problem, motions, request.manner, *prediction, nullptr, progress);
   if (auto whole = account_for_tiles(*setting->problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
+  setting->provenance.measured_near =
+      measured_near(*catalogue()->terrains.find(request.terrain)->second, request.drive, *prediction);
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
 }
 

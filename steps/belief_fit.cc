@@ -128,7 +128,7 @@ double maximise(const GroundChain& chain, const FitData& data,
     const std::vector<Eigen::ArrayXd> weights{chain.entry_weights(shares)};
     for (const std::size_t w : chosen) {
       const ChainPass pass = follow(chain, data.ways[w], likelihoods[w], shares, weights);
-      steps += pass.occupied;
+      steps += pass.smoothed.rowwise().sum();
       log_likelihood += pass.log_likelihood;
     }
     shares = steps / steps.sum();

@@ -106,7 +106,7 @@ ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
   const auto count = static_cast<Eigen::Index>(steps.size());
   ChainPass pass{Eigen::ArrayXXd(soils, count),
                  Eigen::ArrayXXd::Zero(soils, static_cast<Eigen::Index>(chain.grounds.size())),
-                 Eigen::ArrayXd::Zero(soils), start, 0.0};
+                 Eigen::ArrayXXd(soils, count), start, 0.0};
   if (count == 0) return pass;
   // Probability that the soil of the last step holds on; nought across a border of grounds.
   const auto stays = [&](Eigen::Index t) -> Eigen::ArrayXd {
@@ -134,16 +134,16 @@ ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
   Eigen::ArrayXd later = Eigen::ArrayXd::Ones(soils);
   for (Eigen::Index t = count - 1; t > 0; --t) {
     const std::size_t ground = steps[static_cast<std::size_t>(t)].ground;
-    pass.occupied += after.col(t) * later;
+    pass.smoothed.col(t) = after.col(t) * later;
     const Eigen::ArrayXd stay = stays(t);
     const Eigen::ArrayXd seen = likelihoods.col(t) * later / evidence[t];
     const double leaving = ((1.0 - stay) * after.col(t - 1)).sum();
     pass.entries.col(static_cast<Eigen::Index>(ground)) += leaving * weights[ground] * seen;
     later = stay * seen + (1.0 - stay) * (weights[ground] * seen).sum();
   }
-  pass.occupied += after.col(0) * later;
+  pass.smoothed.col(0) = after.col(0) * later;
   // The first stretch of a way began before it: it is one of those met, as the others are.
-  pass.entries.col(static_cast<Eigen::Index>(steps[0].ground)) += after.col(0) * later;
+  pass.entries.col(static_cast<Eigen::Index>(steps[0].ground)) += pass.smoothed.col(0);
   return pass;
 }
 

@@ -71,7 +71,7 @@ struct GroundChain {
 struct ChainPass {
   Eigen::ArrayXXd before;    // soil x step: probabilities before the step's slip is known
   Eigen::ArrayXXd entries;   // soil x ground: expected number of stretches that begin
-  Eigen::ArrayXd occupied;   // by soil: expected number of steps on it
+  Eigen::ArrayXXd smoothed;  // soil x step: probabilities after all steps
   Eigen::ArrayXd last;       // probabilities at the end
   double log_likelihood = 0.0;
 };

@@ -57,15 +57,35 @@ StepForecast StepForecaster::forecast(const Eigen::ArrayXd& probabilities, const
   return out;
 }
 
+Eigen::ArrayXd StepForecaster::start(std::size_t ground, const std::vector<Eigen::ArrayXd>& entering) const {
+  Eigen::ArrayXd start = chain_.shares_of_entries(entering[ground]);
+  // The ground where the last drive ended holds on at the beginning of this one.
+  if (end_) start += memory_.same_ground * (*end_ - start);
+  return start;
+}
+
+void StepForecaster::remember(const ChainPass& pass) {
+  met_ = std::exp(-1.0 / memory_.drive_sols) * met_ + pass.entries;
+  end_ = pass.last;
+}
+
+ChainPass StepForecaster::learn_sol(std::span<const ChainStep> steps) {
+  const auto soils = static_cast<Eigen::Index>(chain_.soils.size());
+  Eigen::ArrayXXd likelihoods(soils, static_cast<Eigen::Index>(steps.size()));
+  for (std::size_t t = 0; t < steps.size(); ++t)
+    likelihoods.col(static_cast<Eigen::Index>(t)) = chain_.likelihoods(steps[t]);
+  const std::vector<Eigen::ArrayXd> entering = weights();
+  const std::size_t ground = steps.empty() ? 0 : steps.front().ground;
+  ChainPass pass = follow(chain_, steps, likelihoods, start(ground, entering), entering);
+  if (!steps.empty()) remember(pass);
+  return pass;
+}
+
 SolForecast StepForecaster::next_sol(std::span<const ChainStep> steps) {
   SolForecast out;
   if (steps.empty()) return out;
   const std::vector<Eigen::ArrayXd> entering = weights();
-  std::vector<Eigen::ArrayXd> shares;
-  for (const Eigen::ArrayXd& each : entering) shares.push_back(chain_.shares_of_entries(each));
-  // The ground where the last drive ended holds on at the beginning of this one.
-  Eigen::ArrayXd start = shares[steps.front().ground];
-  if (end_) start += memory_.same_ground * (*end_ - start);
+  const Eigen::ArrayXd first = start(steps.front().ground, entering);
   const auto soils = static_cast<Eigen::Index>(chain_.soils.size());
   const auto count = static_cast<Eigen::Index>(steps.size());
   Eigen::ArrayXXd likelihoods(soils, count), below_0_2(soils, count), below_0_4(soils, count);
@@ -78,18 +98,16 @@ SolForecast StepForecaster::next_sol(std::span<const ChainStep> steps) {
       below_0_4(j, t) = chain_.noise.below(0.4 - slips[j], slips[j]);
     }
   }
-  const ChainPass pass = follow(chain_, steps, likelihoods, start, entering);
+  const ChainPass pass = follow(chain_, steps, likelihoods, first, entering);
   // Without this sol's steps: as with measurements that every soil makes equally likely.
-  const ChainPass unseen = follow(chain_, steps, Eigen::ArrayXXd::Ones(soils, count), start, entering);
+  const ChainPass unseen = follow(chain_, steps, Eigen::ArrayXXd::Ones(soils, count), first, entering);
   const ChainPass& known = learning_ == StepLearning::kDrive ? pass : unseen;
   for (Eigen::Index t = 0; t < count; ++t)
     out.steps.push_back(forecast(known.before.col(t), steps[static_cast<std::size_t>(t)]));
   // The recursions' evidence of "no step is above" is its probability.
-  out.any_over_0_2 = 1.0 - std::exp(follow(chain_, steps, below_0_2, start, entering).log_likelihood);
-  out.any_over_0_4 = 1.0 - std::exp(follow(chain_, steps, below_0_4, start, entering).log_likelihood);
-  if (learning_ == StepLearning::kNone) return out;
-  met_ = std::exp(-1.0 / memory_.drive_sols) * met_ + pass.entries;
-  end_ = pass.last;
+  out.any_over_0_2 = 1.0 - std::exp(follow(chain_, steps, below_0_2, first, entering).log_likelihood);
+  out.any_over_0_4 = 1.0 - std::exp(follow(chain_, steps, below_0_4, first, entering).log_likelihood);
+  if (learning_ != StepLearning::kNone) remember(pass);
   return out;
 }
 

@@ -44,8 +44,13 @@ class StepForecaster {
 
   // The steps of the next sol, in the order in which they were driven.
   SolForecast next_sol(std::span<const ChainStep> steps);
+  // Learns from the steps of the next sol without a forecast; returns what they say.
+  ChainPass learn_sol(std::span<const ChainStep> steps);
 
  private:
+  // Probabilities of the soils where the next drive begins.
+  Eigen::ArrayXd start(std::size_t ground, const std::vector<Eigen::ArrayXd>& entering) const;
+  void remember(const ChainPass& pass);
   std::vector<Eigen::ArrayXd> weights() const;
   StepForecast forecast(const Eigen::ArrayXd& probabilities, const ChainStep& step) const;
 

@@ -263,6 +263,15 @@ void write_provenance(Writer& w, const Provenance& p) {
   w.text("soil_assumption", p.soil_assumption);
   if (!p.unseen_relief.empty()) w.text("unseen_relief", p.unseen_relief);
   if (p.past_drives) w.whole("past_drives", *p.past_drives).significant("measured_m", p.measured_m);
+  if (p.measured_near)
+    w.key("measured_near")
+        .begin_object()
+        .exact("within_m", StepsNear::kWithin_m)
+        .whole("steps", static_cast<std::int64_t>(p.measured_near->steps))
+        .significant("way_m", p.measured_near->way_m)
+        .significant("median_slip", p.measured_near->median_slip)
+        .significant("largest_slip", p.measured_near->largest_slip)
+        .end_object();
   if (p.relief) write_relief(w, *p.relief);
   w.whole("seed", static_cast<std::int64_t>(p.seed)).end_object();
 }

@@ -9,6 +9,7 @@
 #include "api/requests/plan_request.h"
 #include "api/requests/prediction_request.h"
 #include "api/requests/watch_request.h"
+#include "api/steps/steps_near.h"
 #include "dem/elevation_source.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/drive_watch.h"
@@ -43,6 +44,7 @@ struct Provenance {
   // Where drives of the past weigh the draws: how many, and what is left of the draws.
   std::optional<int> past_drives = {};
   double measured_m = 0.0;  // over which slip of the past was measured, that the draws take into account
+  std::optional<StepsNear> measured_near = {};  // slip that was measured near the way, or the best route
   std::optional<LearntDrive> learnt = {};
   std::shared_ptr<const sim::ReliefSpread> relief = {};  // that the draws have; empty: the map's own
 };

@@ -1,9 +1,9 @@
 #include "api/steps/step_chart.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "api/chart/chart.h"
 #include "core/angle.h"
@@ -47,12 +47,12 @@ std::string step_chart(const StepComparison& comparison) {
     middle.x.push_back(degree);
     middle.y.push_back(median(forecasts.p50));
   }
-  const std::array charts{Chart{.title = "",
-                                .x = {.title = "climb along the step, deg"},
-                                .y = {.title = "slip of the step"},
-                                .bands = {std::move(band)},
-                                .series = {std::move(middle), std::move(measured), std::move(large)}}};
-  return draw_charts("Slip measured on Mars and forecast", charts);
+  Chart chart;
+  chart.x.title = "climb along the step, deg";
+  chart.y.title = "slip of the step";
+  chart.bands = {std::move(band)};
+  chart.series = {std::move(middle), std::move(measured), std::move(large)};
+  return draw_charts("Slip measured on Mars and forecast", std::span(&chart, 1));
 }
 
 }  // namespace slipway::api

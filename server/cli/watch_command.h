@@ -13,7 +13,9 @@ namespace slipway::server {
 
 struct WatchCommand {
   std::string data;
-  std::string campaign;              // folder of a "drive-campaign/1", its drives in their order
+  // Folder of a "drive-campaign/1", its drives in their order, or a table of measured steps (*.csv).
+  std::string campaign;
+  std::string rover = "msl-class";   // that made the steps
   std::string reference;             // folder of healthy drives; empty: the campaign's first ones
   std::vector<std::string> without;  // effects that are not looked for
   int learn = 12;                    // of the campaign's drives where there is no reference
@@ -26,6 +28,8 @@ struct WatchCommand {
 
 // The exit status: 0 nothing has changed, 6 something has, 1 no answer, 2 input that can't be read.
 int watch(const WatchCommand& options);
+// The same of a table of measured steps ("slip-steps/1").
+int watch_steps(const WatchCommand& options);
 
 // Adds the subcommand; `run` then runs it where it is given.
 void add_watch_command(CLI::App& app, std::function<int()>& run);

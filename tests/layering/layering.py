@@ -28,8 +28,8 @@ FOLDERS = {
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
     "planner": ["problem", "search", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
-    "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "uploads", "requests", "jobs",
-            "documents", "steps", "terrain_views", "report", "maps", "."],
+    "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "steps", "uploads", "requests", "jobs",
+            "documents", "terrain_views", "report", "maps", "."],
     "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators", "worlds"}, "."],
     "server": ["http", "cli/terminal", "cli/inquiry", "cli", {"cli/steps", "cli/study"}, "."],
 }

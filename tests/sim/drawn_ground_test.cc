@@ -208,5 +208,66 @@ TEST(DrawnGround, RedrawnCellsChangeTheGroundThereAndNowhereElse) {
   EXPECT_EQ(log_k(after.at(0, 5000.0, 1.0)), log_k(before.at(0, 5000.0, 1.0)));
 }
 
+// Firm ground by units with a sand in patches of 8 m on 6 % of it.
+SoilDistribution firm_with_patches() {
+  SoilDistribution belief = loam();
+  belief.drawn_apart = false;
+  belief.alternatives_by = AlternativesBy::kUnit;
+  belief.correlation_length_m = 8.0;
+  const auto firm = std::make_shared<const SoilDistribution>(spread("firm", sandy_loam(), 0.0));
+  const auto sand = std::make_shared<const SoilDistribution>(spread("sand", loose_sand(), 0.0));
+  belief.alternatives = {{"firm", firm, 0.94, 0.94, false}, {"sand", sand, 0.06, 0.06, true}};
+  return belief;
+}
+
+TEST(DrawnGround, PatchesWithinUnitsHaveTheirShareOfTheGroundAndTheirLength) {
+  const SoilDistribution belief = firm_with_patches();
+  const SoilBeliefs beliefs{{belief}, belief};
+  const double sand = log_k(belief.alternatives[1].soil->mean);
+  int on_sand = 0, ends = 0, metres = 0;
+  for (std::uint64_t d = 0; d < 400; ++d) {
+    DrawnGround ground(beliefs, random_key(21, d));
+    bool was = false;
+    for (int k = 0; k < 200; ++k, ++metres) {
+      const bool is = log_k(ground.at(0, k, 3.0)) == sand;
+      on_sand += is ? 1 : 0;
+      ends += was && !is ? 1 : 0;
+      was = is;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(on_sand) / metres, 0.06, 0.006);
+  // The mean chord of a square cell of 8 m is 6.3 m; neighbours are sand too now and then.
+  EXPECT_NEAR(static_cast<double>(on_sand) / ends, 6.3, 1.3);
+}
+
+TEST(DrawnGround, ARenewedDrawKeepsTheGroundThatWasMetAndHasItsOwnElsewhere) {
+  const SoilBeliefs beliefs{{loam()}, loam()};
+  DrawnGround before(beliefs, random_key(1, 0));
+  ConditionedDraw draw;
+  before.note(draw.met);
+  const double here = log_k(before.at(0, 1.0, 1.0));
+  const auto copies = renewed({draw}, 2, 9);
+  ASSERT_EQ(copies.size(), 2U);
+  DrawnGround one(beliefs, random_key(1, 0), {}, &copies[0].redrawn), other(beliefs, random_key(1, 0), {}, &copies[1].redrawn);
+  EXPECT_EQ(log_k(one.at(0, 1.0, 1.0)), here);
+  EXPECT_EQ(log_k(other.at(0, 1.0, 1.0)), here);
+  EXPECT_NE(log_k(one.at(0, 5000.0, 1.0)), log_k(other.at(0, 5000.0, 1.0)));
+}
+
+TEST(RenewedDraws, AreCopiedByTheirWeightAndAllCount) {
+  std::vector<ConditionedDraw> draws(4);
+  const std::vector<double> weights{0.0, 1.0, 3.0, 4.0};
+  for (std::size_t d = 0; d < draws.size(); ++d) draws[d].weight = weights[d];
+  const auto copies = renewed(draws, 800, 5);
+  EXPECT_DOUBLE_EQ(effective_draws(copies), 800.0);
+  std::vector<int> counted(4, 0);
+  for (const ConditionedDraw& copy : copies) ++counted[copy.number.value()];
+  for (std::size_t d = 0; d < draws.size(); ++d) EXPECT_NEAR(counted[d], 100.0 * weights[d], 1.0);
+  // The first of them are as good as any.
+  int heaviest = 0;
+  for (std::size_t k = 0; k < 100; ++k) heaviest += *copies[k].number == 3 ? 1 : 0;
+  EXPECT_NEAR(heaviest, 50, 20);
+}
+
 }  // namespace
 }  // namespace slipway::sim

@@ -56,6 +56,7 @@ std::string watch_words(const gap::DriveWatch& watch) {
 }  // namespace
 
 int watch(const WatchCommand& options) {
+  if (options.campaign.ends_with(".csv")) return watch_steps(options);
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);

@@ -133,6 +133,17 @@ std::string learnt_lines(const JsonValue& document) {
                      number(learnt, "effective_draws"), number(learnt, "draws"));
 }
 
+// Slip that rovers measured near the way.
+std::string measured_line(const JsonValue& document) {
+  const JsonValue* const near = at(document, "provenance").find("measured_near");
+  return near == nullptr
+             ? std::string()
+             : fmt::format("Measured within {:g} m of the way: {:.0f} steps over {:.0f} m, median slip {:.2f}, "
+                           "largest {:.2f}\n",
+                           number(*near, "within_m"), number(*near, "steps"), number(*near, "way_m"),
+                           number(*near, "median_slip"), number(*near, "largest_slip"));
+}
+
 // What cells of the map's size can't show, where they are large.
 std::string unseen_line(const JsonValue& document) {
   const JsonValue* const unseen = at(document, "provenance").find("unseen_relief");
@@ -208,14 +219,14 @@ std::string drive_lines(const JsonValue& document, bool why) {
   TextTable table = figures_table("drive");
   table.add(figures_row("given", figures, text(decision, "verdict")));
   std::string out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print();
-  if (!why) return out + unseen_line(document) + "Say more: --why\n";
+  if (!why) return out + measured_line(document) + unseen_line(document) + "Say more: --why\n";
   const JsonValue& outcomes = at(document, "outcomes");
   out += "\n" + lines(at(decision, "reasons"), "  - ", 1);
   out += more_figures({{"given", &figures}}) + rules_table(outcomes) + learnt_lines(document);
   out += position_line(document);
   out += fmt::format("{:.0f} sols expected until the drive is through, over {:.0f} draws of the ground\n",
                      std::ceil(number(outcomes, "expected_sols") - 1e-9), number(outcomes, "draws"));
-  return out + dynamic_lines(figures, "Verified by dynamics") + unseen_line(document);
+  return out + dynamic_lines(figures, "Verified by dynamics") + measured_line(document) + unseen_line(document);
 }
 
 std::string why_routes(const JsonValue& plan) {
@@ -255,7 +266,7 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
   const JsonValue& fewer = at(*document, "fewer_because");
   for (std::size_t k = 0; k < fewer.elements.size() && (why || k < kFew); ++k)
     out += fmt::format("Fewer routes than asked for: {}\n", fewer.elements[k].text);
-  out += unseen_line(*document);
+  out += measured_line(*document) + unseen_line(*document);
   if (summary.empty()) return out;
   return why ? out + why_routes(*document) + learnt_lines(*document) : out + "Say more: --why\n";
 }
