@@ -125,9 +125,9 @@ double maximise(const GroundChain& chain, const FitData& data,
   for (int round = 0; round < rounds; ++round) {
     Eigen::ArrayXd steps = prior;
     log_likelihood = 0.0;
-    const std::vector<Eigen::ArrayXd> weights{chain.entry_weights(shares)};
+    const std::vector<Eigen::ArrayXd> now{shares};
     for (const std::size_t w : chosen) {
-      const ChainPass pass = follow(chain, data.ways[w], likelihoods[w], shares, weights);
+      const ChainPass pass = follow(chain, data.ways[w], likelihoods[w], shares, now);
       steps += pass.smoothed.rowwise().sum();
       log_likelihood += pass.log_likelihood;
     }
@@ -341,7 +341,9 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
   add_profiles(parts, shares, fit);
   add_intervals(parts, likelihoods, shares, options, fit);
 
-  fit.classes.push_back({"unknown_ground", "", {shares.begin(), shares.end()}, fit.steps});
+  fit.classes.push_back({"unknown_ground",
+                         "Ground of Mars that no map names: firm nearly everywhere, loose in few patches",
+                         {shares.begin(), shares.end()}, fit.steps});
   for (const GroundClassSteps& each : classes) {
     const FitData of_class = data_of(chain, each.ways);
     Eigen::ArrayXd here = shares;

@@ -33,7 +33,7 @@ struct BeliefFitOptions {
   double patch_m = 13.0;              // correlation length of patches
   std::size_t resamples = 40;         // of whole sols, for intervals of the shares
   // The belief of all ground counts as this many steps on a class.
-  double prior_steps = 50.0;
+  double prior_steps = 10.0;
   std::uint64_t seed = 1;
   std::size_t threads = 0;
 };

@@ -101,7 +101,7 @@ Eigen::ArrayXd GroundChain::likelihoods(const ChainStep& step) const {
 
 ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
                  const Eigen::ArrayXXd& likelihoods, const Eigen::ArrayXd& start,
-                 const std::vector<Eigen::ArrayXd>& weights) {
+                 const std::vector<Eigen::ArrayXd>& shares) {
   const auto soils = static_cast<Eigen::Index>(chain.soils.size());
   const auto count = static_cast<Eigen::Index>(steps.size());
   ChainPass pass{Eigen::ArrayXXd(soils, count),
@@ -114,6 +114,10 @@ ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
     if (here.ground != steps[static_cast<std::size_t>(t - 1)].ground) return Eigen::ArrayXd::Zero(soils);
     return (-here.length_m / chain.chord_m).exp();
   };
+  const auto entering = [&](Eigen::Index t, const Eigen::ArrayXd& stay) -> Eigen::ArrayXd {
+    const Eigen::ArrayXd weights = shares[steps[static_cast<std::size_t>(t)].ground] * (1.0 - stay);
+    return weights / weights.sum();
+  };
   Eigen::ArrayXXd after(soils, count);
   Eigen::ArrayXd evidence(count);
   for (Eigen::Index t = 0; t < count; ++t) {
@@ -122,8 +126,7 @@ ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
     } else {
       const Eigen::ArrayXd stay = stays(t);
       const double leaving = ((1.0 - stay) * after.col(t - 1)).sum();
-      pass.before.col(t) =
-          stay * after.col(t - 1) + leaving * weights[steps[static_cast<std::size_t>(t)].ground];
+      pass.before.col(t) = stay * after.col(t - 1) + leaving * entering(t, stay);
     }
     const Eigen::ArrayXd joint = pass.before.col(t) * likelihoods.col(t);
     evidence[t] = joint.sum();
@@ -136,10 +139,11 @@ ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
     const std::size_t ground = steps[static_cast<std::size_t>(t)].ground;
     pass.smoothed.col(t) = after.col(t) * later;
     const Eigen::ArrayXd stay = stays(t);
+    const Eigen::ArrayXd weights = entering(t, stay);
     const Eigen::ArrayXd seen = likelihoods.col(t) * later / evidence[t];
     const double leaving = ((1.0 - stay) * after.col(t - 1)).sum();
-    pass.entries.col(static_cast<Eigen::Index>(ground)) += leaving * weights[ground] * seen;
-    later = stay * seen + (1.0 - stay) * (weights[ground] * seen).sum();
+    pass.entries.col(static_cast<Eigen::Index>(ground)) += leaving * weights * seen;
+    later = stay * seen + (1.0 - stay) * (weights * seen).sum();
   }
   pass.smoothed.col(0) = after.col(0) * later;
   // The first stretch of a way began before it: it is one of those met, as the others are.

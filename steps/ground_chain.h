@@ -77,10 +77,12 @@ struct ChainPass {
 };
 
 // The forward and backward recursions [Rabiner 1989] over steps that follow each other. `likelihoods` is soil
-// x step, `start` the probabilities at the first step, `weights` the entry weights by ground.
+// x step, `start` the probabilities at the first step, `shares` those of the soils by ground. What is entered
+// where a soil is left within a step goes by share and by how often it is left, so that the shares stay where
+// nothing is measured.
 ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,
                  const Eigen::ArrayXXd& likelihoods, const Eigen::ArrayXd& start,
-                 const std::vector<Eigen::ArrayXd>& weights);
+                 const std::vector<Eigen::ArrayXd>& shares);
 
 // The length over which soils that are not in patches hold; see sim::kUnitLength_m.
 double mean_chord_m(double lattice_m);

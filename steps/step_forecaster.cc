@@ -29,12 +29,12 @@ StepForecaster::StepForecaster(const GroundChain& chain, StepLearning learning, 
       met_(Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(chain.soils.size()),
                                  static_cast<Eigen::Index>(chain.grounds.size()))) {}
 
-std::vector<Eigen::ArrayXd> StepForecaster::weights() const {
+std::vector<Eigen::ArrayXd> StepForecaster::shares() const {
   std::vector<Eigen::ArrayXd> all;
   for (std::size_t g = 0; g < chain_.grounds.size(); ++g) {
     const Eigen::ArrayXd counts = memory_.stretches * chain_.entry_weights(chain_.grounds[g].shares) +
                                   met_.col(static_cast<Eigen::Index>(g));
-    all.emplace_back(counts / counts.sum());
+    all.push_back(chain_.shares_of_entries(counts / counts.sum()));
   }
   return all;
 }
@@ -57,8 +57,8 @@ StepForecast StepForecaster::forecast(const Eigen::ArrayXd& probabilities, const
   return out;
 }
 
-Eigen::ArrayXd StepForecaster::start(std::size_t ground, const std::vector<Eigen::ArrayXd>& entering) const {
-  Eigen::ArrayXd start = chain_.shares_of_entries(entering[ground]);
+Eigen::ArrayXd StepForecaster::start(std::size_t ground, const std::vector<Eigen::ArrayXd>& now) const {
+  Eigen::ArrayXd start = now[ground];
   // The ground where the last drive ended holds on at the beginning of this one.
   if (end_) start += memory_.same_ground * (*end_ - start);
   return start;
@@ -74,9 +74,9 @@ ChainPass StepForecaster::learn_sol(std::span<const ChainStep> steps) {
   Eigen::ArrayXXd likelihoods(soils, static_cast<Eigen::Index>(steps.size()));
   for (std::size_t t = 0; t < steps.size(); ++t)
     likelihoods.col(static_cast<Eigen::Index>(t)) = chain_.likelihoods(steps[t]);
-  const std::vector<Eigen::ArrayXd> entering = weights();
+  const std::vector<Eigen::ArrayXd> now = shares();
   const std::size_t ground = steps.empty() ? 0 : steps.front().ground;
-  ChainPass pass = follow(chain_, steps, likelihoods, start(ground, entering), entering);
+  ChainPass pass = follow(chain_, steps, likelihoods, start(ground, now), now);
   if (!steps.empty()) remember(pass);
   return pass;
 }
@@ -84,8 +84,8 @@ ChainPass StepForecaster::learn_sol(std::span<const ChainStep> steps) {
 SolForecast StepForecaster::next_sol(std::span<const ChainStep> steps) {
   SolForecast out;
   if (steps.empty()) return out;
-  const std::vector<Eigen::ArrayXd> entering = weights();
-  const Eigen::ArrayXd first = start(steps.front().ground, entering);
+  const std::vector<Eigen::ArrayXd> now = shares();
+  const Eigen::ArrayXd first = start(steps.front().ground, now);
   const auto soils = static_cast<Eigen::Index>(chain_.soils.size());
   const auto count = static_cast<Eigen::Index>(steps.size());
   Eigen::ArrayXXd likelihoods(soils, count), below_0_2(soils, count), below_0_4(soils, count);
@@ -98,15 +98,15 @@ SolForecast StepForecaster::next_sol(std::span<const ChainStep> steps) {
       below_0_4(j, t) = chain_.noise.below(0.4 - slips[j], slips[j]);
     }
   }
-  const ChainPass pass = follow(chain_, steps, likelihoods, first, entering);
+  const ChainPass pass = follow(chain_, steps, likelihoods, first, now);
   // Without this sol's steps: as with measurements that every soil makes equally likely.
-  const ChainPass unseen = follow(chain_, steps, Eigen::ArrayXXd::Ones(soils, count), first, entering);
+  const ChainPass unseen = follow(chain_, steps, Eigen::ArrayXXd::Ones(soils, count), first, now);
   const ChainPass& known = learning_ == StepLearning::kDrive ? pass : unseen;
   for (Eigen::Index t = 0; t < count; ++t)
     out.steps.push_back(forecast(known.before.col(t), steps[static_cast<std::size_t>(t)]));
   // The recursions' evidence of "no step is above" is its probability.
-  out.any_over_0_2 = 1.0 - std::exp(follow(chain_, steps, below_0_2, first, entering).log_likelihood);
-  out.any_over_0_4 = 1.0 - std::exp(follow(chain_, steps, below_0_4, first, entering).log_likelihood);
+  out.any_over_0_2 = 1.0 - std::exp(follow(chain_, steps, below_0_2, first, now).log_likelihood);
+  out.any_over_0_4 = 1.0 - std::exp(follow(chain_, steps, below_0_4, first, now).log_likelihood);
   if (learning_ != StepLearning::kNone) remember(pass);
   return out;
 }

@@ -49,9 +49,9 @@ class StepForecaster {
 
  private:
   // Probabilities of the soils where the next drive begins.
-  Eigen::ArrayXd start(std::size_t ground, const std::vector<Eigen::ArrayXd>& entering) const;
+  Eigen::ArrayXd start(std::size_t ground, const std::vector<Eigen::ArrayXd>& now) const;
   void remember(const ChainPass& pass);
-  std::vector<Eigen::ArrayXd> weights() const;
+  std::vector<Eigen::ArrayXd> shares() const;  // by ground
   StepForecast forecast(const Eigen::ArrayXd& probabilities, const ChainStep& step) const;
 
   const GroundChain& chain_;

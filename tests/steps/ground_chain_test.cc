@@ -80,7 +80,7 @@ TEST(GroundChain, KeepsTheSharesOfTheGroundWhereNothingIsMeasured) {
   const std::vector<ChainStep> steps(50);
   const Eigen::ArrayXd shares = ground.grounds[0].shares;
   const ChainPass pass = follow(ground, steps, Eigen::ArrayXXd::Ones(2, 50), shares,
-                                {ground.entry_weights(shares)});
+                                {shares});
   for (Eigen::Index t = 0; t < 50; ++t) EXPECT_NEAR(pass.before(1, t), shares[1], 1e-12);
   EXPECT_NEAR(pass.smoothed.sum(), 50.0, 1e-9);
   EXPECT_NEAR(pass.smoothed(1, 25), shares[1], 1e-9);
@@ -128,7 +128,7 @@ TEST(StepForecaster, LearnsFromSolsOnlyWhereItIsAskedTo) {
     after.push_back(forecaster.next_sol(loose).steps[30].over_0_2);
   }
   EXPECT_EQ(before[0], after[0]);
-  EXPECT_GT(after[1], 2.0 * before[1]);
+  EXPECT_GT(after[1], 1.5 * before[1]);
 }
 
 // Ways drawn from the chain itself: the band holds as often as it says, and the probabilities come true.
