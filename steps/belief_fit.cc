@@ -34,13 +34,13 @@ double between_log(double low, double high, double uniform) {
   return low * std::pow(high / low, uniform);
 }
 
-// Ranges that hold the soils measured on Mars and its simulants (Shen et al. 2024, Tables 1 and 3).
+// Ranges that hold the soils measured on Mars and its simulants but drift (Shen et al. 2024, Tables 1 and 3).
 sim::Soil drawn_soil(std::uint64_t key, double gravity_m_s2) {
   sim::Soil soil;
   soil.pressure.n = between(0.7, 1.4, random_uniform(key, 0));
   soil.pressure.k_phi = between_log(6e4, 2e7, random_uniform(key, 1));
   soil.cohesion_pa = between_log(50.0, 6000.0, random_uniform(key, 2));
-  soil.friction_angle_rad = rad_from_deg(between(16.0, 42.0, random_uniform(key, 3)));
+  soil.friction_angle_rad = rad_from_deg(between(22.0, 42.0, random_uniform(key, 3)));
   soil.shear_modulus_x_m = soil.shear_modulus_y_m = between_log(0.006, 0.06, random_uniform(key, 4));
   soil.c1 = 0.18;
   soil.c2 = 0.32;
@@ -335,7 +335,10 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
   for (const Candidate& each : chosen) {
     const bool patch = each.level_slip > kLevelSlipOfPatches;
     const std::string name = patch ? fmt::format("gale_loose_{}", ++in_patches) : fmt::format("gale_firm_{}", ++on_units);
-    fit.soils.push_back({name, each.soil, patch, {}, each.level_slip, each.slip_at_8_deg, each.sinkage_m});
+    FittedSoil& soil = fit.soils.emplace_back(
+        FittedSoil{name, each.soil, patch, {}, each.level_slip, each.slip_at_8_deg, each.sinkage_m, {}});
+    for (std::size_t c = 0; c < kComparedClimbs_deg.size(); ++c)
+      soil.slips[c] = chain.soils[fit.soils.size() - 1].slips.at(rad_from_deg(kComparedClimbs_deg[c]), 0.0);
   }
   const FitParts parts{chain, data, noise, offset};
   add_profiles(parts, shares, fit);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -38,12 +39,16 @@ struct BeliefFitOptions {
   std::size_t threads = 0;
 };
 
+// Climbs at which soils are compared.
+inline constexpr std::array kComparedClimbs_deg{-8.0, 0.0, 4.0, 8.0, 12.0, 16.0, 20.0};
+
 struct FittedSoil {
   std::string name;
   sim::Soil soil;
   bool in_patches = false;
   FittedNumber share;
   double level_slip = 0.0, slip_at_8_deg = 0.0, level_sinkage_m = 0.0;
+  std::array<double, kComparedClimbs_deg.size()> slips{};  // at these
 };
 
 struct FittedClass {

@@ -2,25 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "steps/belief_fit.h"
 
 namespace slipway::steps {
 namespace {
 
-// The soil on units whose slip at 8 deg of climb is the median of the class: what is predicted on mean soils.
+// The soil on units whose slip over climbs is nearest to the class's median: what is predicted on mean soils.
 const FittedSoil& median_soil(const BeliefFit& fit, const FittedClass& of) {
-  std::vector<std::size_t> order(fit.soils.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return fit.soils[a].slip_at_8_deg < fit.soils[b].slip_at_8_deg;
-  });
-  double sum = 0.0;
-  for (const std::size_t k : order) {
-    sum += of.shares[k];
-    if (sum >= 0.5) return fit.soils[k];
+  std::vector<double> distance(fit.soils.size(), 0.0);
+  for (std::size_t c = 0; c < kComparedClimbs_deg.size(); ++c) {
+    std::vector<std::size_t> order(fit.soils.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return fit.soils[a].slips[c] < fit.soils[b].slips[c];
+    });
+    double sum = 0.0, median = 0.0;
+    for (const std::size_t k : order) {
+      median = fit.soils[k].slips[c];
+      if ((sum += of.shares[k]) >= 0.5) break;
+    }
+    for (std::size_t k = 0; k < distance.size(); ++k) distance[k] += std::abs(fit.soils[k].slips[c] - median);
   }
-  return fit.soils[order.back()];
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < distance.size(); ++k)
+    if (!fit.soils[k].in_patches && distance[k] < distance[best]) best = k;
+  return fit.soils[best];
 }
 
 sim::SoilDistribution soil_of(const FittedSoil& fitted, const std::string& source,
@@ -47,21 +55,26 @@ std::vector<sim::SoilDistribution> as_soils(const BeliefFit& fit, const BeliefFi
   constexpr double kSlipError = 0.2;
   // The logarithms of shares differ by about this between the sols before 583 and Marias Pass.
   constexpr double kSharesSpread = 1.0;
+  // The share of loose steps differs between Curiosity's sols with a coefficient of variation of some 2.4:
+  // sqrt(ln(1 + 2.4^2)).
+  constexpr double kPatchesSpread = 1.4;
   std::vector<sim::SoilDistribution> soils;
   for (const FittedSoil& each : fit.soils) soils.push_back(soil_of(each, source, options));
   for (const FittedClass& of : fit.classes) {
     sim::SoilDistribution belief = soil_of(median_soil(fit, of), source, options);
     belief.name = of.name;
     belief.summary = of.summary;
-    belief.assumed = {"mean: the soil whose slip at 8 deg is the median; predictions on mean soils alone",
+    belief.assumed = {"mean: the soil whose slip is nearest to the median over climbs; predictions on mean soils alone",
                       "slip_error: the part of a step's scatter that goes with its slip",
                       "alternatives_spread: places differ in their shares about as much as Marias Pass does "
-                      "from the plains before it"};
+                      "from the plains before it",
+                      "patches_spread: units differ in their share of patches as sols do"};
     belief.shares = {0.0, 0.0, 1.0};
     belief.slip_error = kSlipError;
     belief.drawn_apart = false;
     belief.alternatives_by = sim::AlternativesBy::kUnit;
     belief.alternatives_spread = kSharesSpread;
+    belief.patches_spread = kPatchesSpread;
     for (std::size_t k = 0; k < fit.soils.size(); ++k) {
       const double share = std::round(1e5 * of.shares[k]) / 1e5;
       if (share <= 0.0) continue;

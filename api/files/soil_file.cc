@@ -241,6 +241,9 @@ void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
     reader.fault("alternatives",
                  "in_patches is for alternatives with a weight and by unit, of which some are not in patches");
   reader.number("alternatives_spread", kOptional, {"1", 0.0, 5.0}, soil.alternatives_spread);
+  reader.number("patches_spread", kOptional, {"1", 0.0, 5.0}, soil.patches_spread);
+  if (soil.patches_spread > 0.0 && !in_patches)
+    reader.fault("patches_spread", "patches_spread is for alternatives of which some are in patches");
 }
 
 void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilDistribution& soil,
@@ -383,6 +386,7 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
     }
     w.end_array().text("alternatives_by", kAlternativesBy[static_cast<std::size_t>(soil.alternatives_by)]);
     if (soil.alternatives_spread > 0.0) w.exact("alternatives_spread", soil.alternatives_spread);
+    if (soil.patches_spread > 0.0) w.exact("patches_spread", soil.patches_spread);
   }
   w.end_object();
 }

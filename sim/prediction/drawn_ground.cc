@@ -1,5 +1,6 @@
 #include "sim/prediction/drawn_ground.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -18,7 +19,8 @@ enum Stream : std::uint64_t {
   kWeak,
   kCommonness,
   kInPatches,
-  kPatchOrUnit
+  kPatchOrUnit,
+  kShareOfUnit
 };
 
 // Cells are redrawn by the numbers of tries below this, and renewed by those above.
@@ -194,16 +196,19 @@ double DrawnGround::share_in_patches(const Belief& belief) {
 }
 
 // The patch of a soil that lies within units, or the unit. Whether a patch is one of them is drawn for its
-// cell.
+// cell, with the share that its unit has.
 std::uint64_t DrawnGround::unit_or_patch(Belief& belief, double x_m, double y_m) {
+  constexpr double kMostInPatches = 0.9;
+  const std::uint64_t unit = cell_at(random_key(belief.key, kJitter), kUnitLength_m, x_m, y_m);
   belief.in_patch = false;
-  if (belief.share_in_patches > 0.0) {
-    const std::uint64_t patch = cell_at(random_key(belief.key, kInPatches),
-                                        belief.distribution->correlation_length_m, x_m, y_m);
-    belief.in_patch = random_uniform(patch, kPatchOrUnit) < belief.share_in_patches;
-    if (belief.in_patch) return patch;
-  }
-  return cell_at(random_key(belief.key, kJitter), kUnitLength_m, x_m, y_m);
+  if (belief.share_in_patches <= 0.0) return unit;
+  const double spread = belief.distribution->patches_spread;
+  const double share = belief.share_in_patches *
+                       std::exp(spread * random_normal(unit, kShareOfUnit) - 0.5 * spread * spread);
+  const std::uint64_t patch =
+      cell_at(random_key(belief.key, kInPatches), belief.distribution->correlation_length_m, x_m, y_m);
+  belief.in_patch = random_uniform(patch, kPatchOrUnit) < std::min(share, kMostInPatches);
+  return belief.in_patch ? patch : unit;
 }
 
 // The rows of pressure and strength of a cell, drawn anew until the rover drives level ground of them.

@@ -197,6 +197,9 @@ struct SoilDistribution {
   // How little is known of how common each of them is: the standard deviation from draw to draw of the
   // logarithm of each one's weight, the same for all ground of this soil.
   double alternatives_spread = 0.0;
+  // How much the share of patches differs from unit to unit: the standard deviation of its logarithm, about
+  // the same mean.
+  double patches_spread = 0.0;
   // Sinkage under load and strength are drawn apart, since tables of soils often share one assumed stiffness
   // among rows whose strengths were measured one by one. Otherwise a draw is one of the soils as a whole, by
   // its strength's weight.
