@@ -119,7 +119,7 @@ class Contract(WithServer):
         self.assertEqual(first, local.rstrip(b"\n"))
 
     def test_a_poller_hears_when_nothing_changed(self):
-        status, headers, _ = self.server.ask("POST", "/v1/predictions", SHORT)
+        status, headers, _ = self.server.ask("POST", "/v1/predictions", SHORT, {"Prefer": "respond-async"})
         self.assertEqual(status, 201)
         location = headers["Location"]
         self.server.end_of(location)
@@ -129,9 +129,9 @@ class Contract(WithServer):
         self.assertEqual((status, body), (304, b""))
 
     def test_prefer_wait_answers_at_once(self):
-        status, headers, body = self.server.ask("POST", "/v1/predictions", SHORT, {"Prefer": "wait=30"})
+        status, headers, body = self.server.ask("POST", "/v1/plans", plan(routes=1, draws=4), {"Prefer": "wait=30"})
         self.assertEqual(status, 200)
-        self.assertEqual(json.loads(body)["format"], "prediction/1")
+        self.assertEqual(json.loads(body)["format"], "plan/1")
 
     def test_a_dismissed_plan_stops_within_two_seconds(self):
         status, headers, _ = self.server.ask("POST", "/v1/plans", plan(draws=500, routes=8), {"Prefer": "respond-async"})
