@@ -1,4 +1,4 @@
-# Runs the stages of tests/run.sh and measures them; to be sourced. The table is printed however the script ends.
+# Runs the stages of tests/run.sh and measures them; to be sourced. The tables are printed however the script ends.
 
 stage_table=""
 

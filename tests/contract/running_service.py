@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -23,6 +24,18 @@ JSON = {"Content-Type": "application/json"}
 
 def plan(**changes):
     return {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, **changes}
+
+
+def thinned_data(folder, every):
+    """A copy of the shipped data whose practice campaigns have every n-th drive alone, {campaign: n}; the folder."""
+    shutil.copytree(DATA, folder, ignore=shutil.ignore_patterns("validation"))
+    for campaign, n in every.items():
+        path = folder / "gap-practice" / campaign / "campaign.json"
+        described = json.loads(path.read_text())
+        described["drives"] = described["drives"][::n]
+        path.chmod(0o644)
+        path.write_text(json.dumps(described))
+    return folder
 
 
 VERDICTS = (0, 3, 4)  # GO, NO-GO or no route, UNKNOWN: the question was answered
@@ -136,7 +149,12 @@ class WithServer(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.server = Server(pathlib.Path(cls.folder.name))
+        cls.server = Server(pathlib.Path(cls.folder.name), data=cls.data(pathlib.Path(cls.folder.name)))
+
+    @classmethod
+    def data(cls, folder):
+        """The data of the server; whoever makes them makes them in this folder."""
+        return DATA
 
     @classmethod
     def tearDownClass(cls):

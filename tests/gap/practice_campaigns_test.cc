@@ -5,18 +5,26 @@
 #include <filesystem>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/catalogue.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "tests/full_size.h"
 
 namespace slipway::gap {
 namespace {
 
-Diagnosis diagnosis_of(const char* name, std::vector<std::string> withheld = {}) {
+// At full size of all drives, otherwise of each so many.
+Diagnosis diagnosis_of(const char* name, std::size_t every = 1, std::vector<std::string> withheld = {}) {
   const std::filesystem::path data = SLIPWAY_DATA_FOLDER;
   auto campaign = api::load_drive_campaign(data / "gap-practice" / name, api::Catalogue{});
   EXPECT_TRUE(campaign) << name;
+  if (!full_size()) {
+    std::vector<MeasuredDriveSeries> some;
+    for (std::size_t d = 0; d < campaign->drives.size(); d += every) some.push_back(campaign->drives[d]);
+    campaign->drives = std::move(some);
+  }
   DiagnosisOptions options;
   options.search.withheld = std::move(withheld);
   NoProgress progress;
@@ -46,7 +54,7 @@ const FoundParameter& parameter(const Diagnosis& diagnosis, const std::string& n
 }
 
 TEST(PracticeCampaigns, NothingIsFoundWhereNothingIsMissing) {
-  const Diagnosis diagnosis = diagnosis_of("p01");
+  const Diagnosis diagnosis = diagnosis_of("p01", 4);
   EXPECT_EQ(diagnosis.verdict, Verdict::kNoGap) << diagnosis.reason;
   EXPECT_TRUE(diagnosis.effects.empty());
   EXPECT_FALSE(diagnosis.least_detectable.empty());
@@ -76,7 +84,7 @@ TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
   ASSERT_EQ(found.extrapolations.size(), 2U) << "slope and temperature differ, speed does not";
   for (const Extrapolation& e : found.extrapolations)
     EXPECT_GT(e.log_density_gain, 2.0 * e.error) << e.variable;
-  const Diagnosis without = diagnosis_of("p05", {"motor_temperature"});
+  const Diagnosis without = diagnosis_of("p05", 1, {"motor_temperature"});
   const std::vector<std::string> named = names(without);
   EXPECT_EQ(std::count(named.begin(), named.end(), "motor_temperature"), 0);
   EXPECT_EQ(without.verdict, Verdict::kUnknown) << without.reason;
@@ -92,7 +100,7 @@ TEST(PracticeCampaigns, BothOfAPairAreFound) {
 }
 
 TEST(PracticeCampaigns, APullThatNoEffectKnowsIsUnknown) {
-  const Diagnosis diagnosis = diagnosis_of("p08");
+  const Diagnosis diagnosis = diagnosis_of("p08", 4);
   EXPECT_EQ(diagnosis.verdict, Verdict::kUnknown) << diagnosis.reason;
   EXPECT_TRUE(diagnosis.effects.empty()) << "a small bulldozing would be the pull's shadow";
   ASSERT_FALSE(diagnosis.residual.empty());

@@ -62,7 +62,7 @@ class Maps(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("gdalinfo") and shutil.which("ogrinfo"), "GDAL's tools are not installed")
     def test_gdals_own_tools_read_what_was_meant(self):
-        self.made("verdict", "verdict.tif", "--distance", "20")
+        self.made("verdict", "verdict.tif", "--distance", "20", "--extent", "8142540,-276680,8142600,-276640")
         told = subprocess.run(["gdalinfo", str(self.here / "verdict.tif")], capture_output=True, text=True).stdout
         for words in ("LAYOUT=COG", "Block=512x512", "Color Table", "NoData Value=0", "SLIPWAY_DISTANCE_M=20", "NO-GO"):
             self.assertIn(words, told)
@@ -76,8 +76,8 @@ class Maps(unittest.TestCase):
         self.assertIn("height_m: Real", told)
 
     def test_unknown_ground_has_a_value_only_where_its_belief_is_asked_for(self):
-        nothing = self.made("stop_risk", "a.tif", "--extent", "8142480,-276700,8142520,-276660")
-        believed = self.made("stop_risk", "b.tif", "--extent", "8142480,-276700,8142520,-276660", "--on-unknown", "belief")
+        nothing = self.made("stop_risk", "a.tif", "--extent", "8142480,-276700,8142500,-276680")
+        believed = self.made("stop_risk", "b.tif", "--extent", "8142480,-276700,8142500,-276680", "--on-unknown", "belief")
         self.assertGreater(nothing["statistics"]["nodata_cells"], 0)
         self.assertLess(believed["statistics"]["nodata_cells"], nothing["statistics"]["nodata_cells"])
         self.assertGreaterEqual(believed["statistics"]["lowest"], 0.0)
