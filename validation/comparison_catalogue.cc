@@ -55,6 +55,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "practice campaign p01", &independent_simulator},
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",
                  "NASA/JPL", &curiosity_attitude},
+      Comparison{"curiosity_steps", "slip of single metres of Curiosity and Perseverance, forecast",
+                 "NASA/JPL, SPICE kernels and PLACES", &curiosity_steps},
       Comparison{"curiosity_outcomes",
                  "which of Curiosity's drives were stopped by slip, and how probable that was",
                  "published mission updates", &curiosity_outcomes},

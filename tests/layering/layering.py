@@ -51,7 +51,7 @@ FENCES = [
     (r"archive(_entry)?\.h", r"api/uploads/libarchive_\w+\.cc"),
     (r"openssl/.*", r"core/openssl_\w+\.cc"),
     (r"httplib\.h", r"server/http/\w+\.cc"),
-    (r"CLI/.*", r"server/cli/\w+\.cc"),
+    (r"CLI/.*", r"server/cli/(steps/)?\w+\.cc"),
     (r"prometheus/.*", r"server/metrics\.cc"),
     (r"spdlog/.*", r"server/log\.cc"),
     (r"(Simbody|SimTK\w*)\.h|simbody/.*", r"(?!)"),  # a judge in tests alone

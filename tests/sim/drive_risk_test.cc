@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/random.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {
@@ -330,6 +331,44 @@ TEST(DriveRisk, AWeightIsTheLikelihoodOfTheReport) {
   const double prior = before.stop_at(0.0);
   const double posterior = 0.9 * prior / (0.9 * prior + 0.1 * (1.0 - prior));
   EXPECT_NEAR(after.stop_at(0.0), posterior, 1e-9);
+}
+
+// Good news never makes an answer worse: what was a GO stays one however many drives went well, far from the
+// next drive or beside it; and a stop on the way of the next drive takes it back.
+TEST(DriveRisk, GoodDrivesLeaveAGoAndAStopTakesItBack) {
+  Patches ground;
+  ground.beliefs.known.front().alternatives[1].pressure_weight =
+      ground.beliefs.known.front().alternatives[1].strength_weight = 0.01;
+  ground.options = RiskOptions{.draws = 200};
+  const auto drive = [&](double from_m) {
+    std::vector<PathStation> path = straight(6.0);
+    for (PathStation& station : path) station.pose.x_m += from_m;
+    return path;
+  };
+  const auto next_is_go = [&](const std::vector<ConditionedDraw>& draws) {
+    RiskOptions options{.draws = 32, .max_draws = 1000};
+    options.conditioned =
+        std::make_shared<const std::vector<ConditionedDraw>>(renewed(draws, 1000, random_key(1, 1)));
+    return options.bars.are_kept(
+        predict(ground.ground, ground.beliefs, drive(100.0), options, ground.tight).outcomes);
+  };
+  std::vector<ConditionedDraw> draws(200);
+  ASSERT_TRUE(next_is_go(draws));
+  NoProgress progress;
+  const auto learn = [&](double from_m, bool stopped) {
+    const auto done =
+        condition_draws(kRover, 3.71, ground.ground, ground.beliefs, drive(from_m), ground.tight, ground.options,
+                        {stopped, 0.05, stopped ? 16 : 2}, 1, progress, draws);
+    ASSERT_TRUE(done);
+    if (effective_draws(draws) < 100.0)
+      draws = renewed(draws, draws.size(), random_key(2, static_cast<std::uint64_t>(from_m)));
+  };
+  for (int k = 0; k < 14; ++k) {
+    learn(7.0 * k + 1.0, false);
+    EXPECT_TRUE(next_is_go(draws)) << k + 1 << " good drives";
+  }
+  learn(100.0, true);
+  EXPECT_FALSE(next_is_go(draws));
 }
 
 // The weighted mean over the draws that a prediction keeps.

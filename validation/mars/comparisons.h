@@ -15,6 +15,7 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data);
 Result<Report> zhurong_pull(const std::filesystem::path& data);
 Result<Report> curiosity_attitude(const std::filesystem::path& data);
 Result<Report> curiosity_hops(const std::filesystem::path& data);
+Result<Report> curiosity_steps(const std::filesystem::path& data);
 Result<Report> curiosity_outcomes(const std::filesystem::path& data);
 Result<Report> fido_table_1(const std::filesystem::path& data);
 Result<Report> roams_table_1(const std::filesystem::path& data);
