@@ -78,9 +78,8 @@ Result<void> learn_stretch(const planner::PlanProblem& problem, const std::vecto
       break;
     const double come_m = std::max(1.0 - step.slip, 0.0) * step.odometry_m;
     if (way.along.empty()) way.along.push_back(from);
-    way.along.push_back({from.x_m + come_m * std::sin(*step.course_rad),
-                         from.y_m + come_m * std::cos(*step.course_rad),
-                         {}});
+    way.along.push_back(
+        {from.x_m + come_m * std::sin(*step.course_rad), from.y_m + come_m * std::cos(*step.course_rad), {}});
     way.measured.rolled_m += step.odometry_m;
     way.measured.come_m += come_m;
   }
@@ -130,8 +129,8 @@ GroundEvidence evidence_of(const ConditionedGround& ground, std::size_t count, s
 
 Result<GroundEvidence> ConditionedGroundCache::get(const std::string& key,
                                                    const planner::PlanProblem& problem,
-                                                   const PastEvidence& past, int as_of_sol,
-                                                   std::size_t count, Progress& progress) {
+                                                   const PastEvidence& past, int as_of_sol, std::size_t count,
+                                                   Progress& progress) {
   ConditionedGround ground;
   const auto is_past = [&](int sol) { return sol < as_of_sol; };
   {

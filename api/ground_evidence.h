@@ -59,7 +59,8 @@ struct ConditionedGround {
 // Parts of their paths off the problem's terrain are left out. The problem's rover, limits, checks, seed and
 // number of draws are those of the answer. Goes on from `ground`, which is empty at first. Errors: cancelled,
 // with `ground` undefined.
-Result<void> condition_draws(const planner::PlanProblem& problem, const PastEvidence& past, int as_of_sol, Progress& progress, ConditionedGround& ground);
+Result<void> condition_draws(const planner::PlanProblem& problem, const PastEvidence& past, int as_of_sol,
+                             Progress& progress, ConditionedGround& ground);
 
 // `count` draws of equal weight.
 GroundEvidence evidence_of(const ConditionedGround& ground, std::size_t count, std::uint64_t seed);
@@ -70,8 +71,7 @@ class ConditionedGroundCache {
  public:
   // `key` names all that the answer depends on but the sol; nothing is kept where it is empty.
   Result<GroundEvidence> get(const std::string& key, const planner::PlanProblem& problem,
-                             const PastEvidence& past, int as_of_sol, std::size_t count,
-                             Progress& progress);
+                             const PastEvidence& past, int as_of_sol, std::size_t count, Progress& progress);
 
  private:
   std::mutex mutex_;

@@ -248,8 +248,8 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
                              answer.prediction, answer.dynamic ? &*answer.dynamic : nullptr, progress);
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
-  setting->provenance.measured_near = measured_near(*catalogue()->terrains.find(request.terrain)->second,
-                                                    request.drive, answer.prediction);
+  setting->provenance.measured_near =
+      measured_near(*catalogue()->terrains.find(request.terrain)->second, request.drive, answer.prediction);
   answer.provenance = std::move(setting->provenance);
   return answer;
 }

@@ -60,9 +60,10 @@ sim::SoilBeliefs beliefs_of(const Catalogue& catalogue, const DriveAssumptions& 
   sim::SoilBeliefs beliefs;
   const std::string unmapped(unknown_ground_at(gravity_m_s2));
   for (const RegionalSoil& soil : soils)
-    beliefs.known.push_back(believed(catalogue, soil, drive.confidence.value_or(confidence), unmapped, effects));
-  beliefs.unknown =
-      believed(catalogue, {drive.unknown_soil.empty() ? unmapped : drive.unknown_soil, {}}, 1.0, unmapped, effects);
+    beliefs.known.push_back(
+        believed(catalogue, soil, drive.confidence.value_or(confidence), unmapped, effects));
+  beliefs.unknown = believed(catalogue, {drive.unknown_soil.empty() ? unmapped : drive.unknown_soil, {}}, 1.0,
+                             unmapped, effects);
   return beliefs;
 }
 
@@ -94,8 +95,7 @@ Provenance provenance_of(const TerrainSite& site, const Legend& legend, const pl
 std::vector<planner::Waypoint> places_to_read(const TerrainSite& site, const DriveAssumptions& drive,
                                               std::vector<planner::Waypoint> places) {
   if (drive.as_of_sol) {
-    const std::vector<planner::Waypoint> past =
-        places_of({site.outcomes(), site.steps()}, *drive.as_of_sol);
+    const std::vector<planner::Waypoint> past = places_of({site.outcomes(), site.steps()}, *drive.as_of_sol);
     places.insert(places.end(), past.begin(), past.end());
   }
   if (drive.drive_so_far)
@@ -134,8 +134,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.terrain_is_whole_map = problem.terrain->geometry() == site.info().geometry;
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
-  problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence,
-                               site.description().gravity_m_s2, effects);
+  problem.beliefs =
+      beliefs_of(*catalogue, drive, soils.soils, legend.confidence, site.description().gravity_m_s2, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;
@@ -159,9 +159,9 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     planner::PlanProblem past = problem;
     past.risk.draws = drive.draws.value_or(kWeighedDraws);
     const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
-    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
-                                            {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted,
-                                            progress);
+    auto evidence =
+        conditioned_ground_.get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
+                                {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted, progress);
     if (!evidence) return fail(evidence.error());
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;

@@ -18,8 +18,7 @@ void apply(const std::vector<sim::EffectSetting>& effects, const std::vector<std
 }  // namespace
 
 sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& soil, double confidence,
-                               std::string_view unmapped,
-                               const std::vector<sim::EffectSetting>& effects) {
+                               std::string_view unmapped, const std::vector<sim::EffectSetting>& effects) {
   sim::SoilDistribution belief = catalogue.soils.find(soil.base)->second;
   const sim::SoilDistribution& unknown = catalogue.soils.find(unmapped)->second;
   if (confidence < 1.0 && belief.name != unknown.name && belief.alternatives.empty() &&

@@ -22,9 +22,10 @@ Site gale() {
   const api::RegionalSoils soils = api::soils_in_regions(ground.soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const api::RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(
-        api::believed(catalogue, soil, site.description().legends.front().confidence, effects));
-  problem.beliefs.unknown = api::believed(catalogue, {std::string(api::kUnknownGround), {}}, 1.0, effects);
+    problem.beliefs.known.push_back(api::believed(
+        catalogue, soil, site.description().legends.front().confidence, api::kUnknownGround, effects));
+  problem.beliefs.unknown =
+      api::believed(catalogue, {std::string(api::kUnknownGround), {}}, 1.0, api::kUnknownGround, effects);
   problem.gravity_m_s2 = site.description().gravity_m_s2;
   out.stops = site.stops();
   return out;

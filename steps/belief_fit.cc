@@ -29,7 +29,9 @@ struct Candidate {
   double level_slip = 0.0, slip_at_8_deg = 0.0, sinkage_m = 0.0;
 };
 
-double between(double low, double high, double uniform) { return low + (high - low) * uniform; }
+double between(double low, double high, double uniform) {
+  return low + (high - low) * uniform;
+}
 double between_log(double low, double high, double uniform) {
   return low * std::pow(high / low, uniform);
 }
@@ -230,19 +232,18 @@ void add_profiles(const FitParts& parts, const Eigen::ArrayXd& shares, BeliefFit
   const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(shares.size());
   const auto at = [&](const GroundChain& chain, const StepNoise& noise, double offset) {
     Eigen::ArrayXd here = shares;
-    return maximise(chain, parts.data, likelihoods_of(parts.data, noise, offset), all, none,
-                    kRoundsOfProfile, here);
+    return maximise(chain, parts.data, likelihoods_of(parts.data, noise, offset), all, none, kRoundsOfProfile,
+                    here);
   };
   fit.odometry_offset = profiled({0.0, 0.005, 0.01, 0.015, 0.02, 0.0225, 0.025, 0.0275, 0.03, 0.035, 0.04},
                                  [&](double offset) { return at(parts.chain, parts.noise, offset); });
-  fit.noise_least = profiled({0.008, 0.01, 0.011, 0.012, 0.013, 0.014, 0.015, 0.016, 0.018, 0.02},
-                             [&](double least) {
-                               return at(parts.chain, {least, parts.noise.share}, parts.offset);
-                             });
-  fit.noise_share =
-      profiled({0.05, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.25, 0.3}, [&](double share) {
-        return at(parts.chain, {parts.noise.least, share}, parts.offset);
+  fit.noise_least =
+      profiled({0.008, 0.01, 0.011, 0.012, 0.013, 0.014, 0.015, 0.016, 0.018, 0.02}, [&](double least) {
+        return at(parts.chain, {least, parts.noise.share}, parts.offset);
       });
+  fit.noise_share = profiled({0.05, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.25, 0.3}, [&](double share) {
+    return at(parts.chain, {parts.noise.least, share}, parts.offset);
+  });
   fit.patch_m = profiled({3.0, 5.0, 7.0, 10.0, 13.0, 18.0, 25.0, 35.0, 50.0}, [&](double patch_m) {
     GroundChain chain = parts.chain;
     for (std::size_t k = 0; k < chain.soils.size(); ++k)
@@ -268,7 +269,8 @@ void add_intervals(const FitParts& parts, const std::vector<Eigen::ArrayXXd>& li
     for (const Eigen::ArrayXd& each : resampled) values.push_back(each[static_cast<Eigen::Index>(k)]);
     std::sort(values.begin(), values.end());
     const auto at = [&](double p) {
-      return values.empty() ? 0.0 : values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+      return values.empty() ? 0.0
+                            : values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
     };
     fit.soils[k].share = {shares[static_cast<Eigen::Index>(k)], at(0.05), at(0.95)};
   }
@@ -334,7 +336,8 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
   std::size_t on_units = 0, in_patches = 0;
   for (const Candidate& each : chosen) {
     const bool patch = each.level_slip > kLevelSlipOfPatches;
-    const std::string name = patch ? fmt::format("gale_loose_{}", ++in_patches) : fmt::format("gale_firm_{}", ++on_units);
+    const std::string name =
+        patch ? fmt::format("gale_loose_{}", ++in_patches) : fmt::format("gale_firm_{}", ++on_units);
     FittedSoil& soil = fit.soils.emplace_back(
         FittedSoil{name, each.soil, patch, {}, each.level_slip, each.slip_at_8_deg, each.sinkage_m, {}});
     for (std::size_t c = 0; c < kComparedClimbs_deg.size(); ++c)
@@ -346,14 +349,15 @@ Result<BeliefFit> fit_belief(const sim::RoverModel& given, double gravity_m_s2, 
 
   fit.classes.push_back({"unknown_ground",
                          "Ground of Mars that no map names: firm nearly everywhere, loose in few patches",
-                         {shares.begin(), shares.end()}, fit.steps});
+                         {shares.begin(), shares.end()},
+                         fit.steps});
   for (const GroundClassSteps& each : classes) {
     const FitData of_class = data_of(chain, each.ways);
     Eigen::ArrayXd here = shares;
     maximise(chain, of_class, likelihoods_of(of_class, noise, offset), all_of(of_class),
              options.prior_steps * shares, kRounds, here);
-    FittedClass& out = fit.classes.emplace_back(
-        FittedClass{each.name, each.summary, {here.begin(), here.end()}, 0});
+    FittedClass& out =
+        fit.classes.emplace_back(FittedClass{each.name, each.summary, {here.begin(), here.end()}, 0});
     for (const std::vector<ChainStep>& way : each.ways) out.steps += way.size();
   }
   return fit;

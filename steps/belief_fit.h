@@ -29,10 +29,10 @@ struct GroundClassSteps {
 };
 
 struct BeliefFitOptions {
-  std::size_t candidates = 2500;      // soils that are drawn
+  std::size_t candidates = 2500;              // soils that are drawn
   std::size_t on_units = 14, in_patches = 7;  // soils that are kept at most
-  double patch_m = 13.0;              // correlation length of patches
-  std::size_t resamples = 40;         // of whole sols, for intervals of the shares
+  double patch_m = 13.0;                      // correlation length of patches
+  std::size_t resamples = 40;                 // of whole sols, for intervals of the shares
   // The belief of all ground counts as this many steps on a class.
   double prior_steps = 10.0;
   std::uint64_t seed = 1;

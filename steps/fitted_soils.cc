@@ -39,9 +39,10 @@ sim::SoilDistribution soil_of(const FittedSoil& fitted, const std::string& sourc
                              fitted.in_patches ? "Loose" : "Firm", 100.0 * fitted.level_slip,
                              100.0 * fitted.slip_at_8_deg);
   soil.source = source;
-  soil.assumed = {"which of the soils with this slip it is: slip alone tells stiffness, strength and shear apart "
-                  "poorly",
-                  "density_kg_m3", "c1", "c2"};
+  soil.assumed = {
+      "which of the soils with this slip it is: slip alone tells stiffness, strength and shear apart "
+      "poorly",
+      "density_kg_m3", "c1", "c2"};
   soil.mean = fitted.soil;
   soil.correlation_length_m = options.patch_m;
   return soil;
@@ -64,11 +65,12 @@ std::vector<sim::SoilDistribution> as_soils(const BeliefFit& fit, const BeliefFi
     sim::SoilDistribution belief = soil_of(median_soil(fit, of), source, options);
     belief.name = of.name;
     belief.summary = of.summary;
-    belief.assumed = {"mean: the soil whose slip is nearest to the median over climbs; predictions on mean soils alone",
-                      "slip_error: the part of a step's scatter that goes with its slip",
-                      "alternatives_spread: places differ in their shares about as much as Marias Pass does "
-                      "from the plains before it",
-                      "patches_spread: units differ in their share of patches as sols do"};
+    belief.assumed = {
+        "mean: the soil whose slip is nearest to the median over climbs; predictions on mean soils alone",
+        "slip_error: the part of a step's scatter that goes with its slip",
+        "alternatives_spread: places differ in their shares about as much as Marias Pass does "
+        "from the plains before it",
+        "patches_spread: units differ in their share of patches as sols do"};
     belief.shares = {0.0, 0.0, 1.0};
     belief.slip_error = kSlipError;
     belief.drawn_apart = false;

@@ -95,8 +95,7 @@ Eigen::ArrayXd GroundChain::predicted_slips(const ChainStep& step) const {
 }
 
 Eigen::ArrayXd GroundChain::likelihoods(const ChainStep& step) const {
-  return predicted_slips(step).unaryExpr(
-      [&](double slip) { return noise.density(step.slip - slip, slip); });
+  return predicted_slips(step).unaryExpr([&](double slip) { return noise.density(step.slip - slip, slip); });
 }
 
 ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,

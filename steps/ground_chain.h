@@ -26,9 +26,9 @@ struct StepNoise {
 struct ChainStep {
   double pitch_rad = 0.0;  // climbing is positive
   double roll_rad = 0.0;
-  double length_m = 1.0;     // by odometry
-  double slip = 0.0;         // measured
-  std::size_t ground = 0;    // which of the chain's grounds it lies on
+  double length_m = 1.0;   // by odometry
+  double slip = 0.0;       // measured
+  std::size_t ground = 0;  // which of the chain's grounds it lies on
 };
 
 // One soil that the ground may be, on one rover.
@@ -63,8 +63,8 @@ struct GroundChain {
   Eigen::ArrayXd entry_weights(const Eigen::ArrayXd& shares) const;
   Eigen::ArrayXd shares_of_entries(const Eigen::ArrayXd& weights) const;
 
-  Eigen::ArrayXd predicted_slips(const ChainStep& step) const;           // by soil
-  Eigen::ArrayXd likelihoods(const ChainStep& step) const;               // of its measured slip, by soil
+  Eigen::ArrayXd predicted_slips(const ChainStep& step) const;  // by soil
+  Eigen::ArrayXd likelihoods(const ChainStep& step) const;      // of its measured slip, by soil
 };
 
 // What the steps of one way say.

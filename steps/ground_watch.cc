@@ -19,7 +19,8 @@ std::vector<LooseStretch> GroundWatch::next_sol(std::span<const ChainStep> steps
   std::vector<double> usual;
   const auto close = [&] {
     if (open && open->probability >= kSure && open->largest_slip > kLargeSlip) {
-      std::nth_element(usual.begin(), usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2), usual.end());
+      std::nth_element(usual.begin(), usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2),
+                       usual.end());
       open->usual_slip = usual[usual.size() / 2];
       found.push_back(*open);
     }

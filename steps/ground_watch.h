@@ -17,8 +17,8 @@ struct LooseStretch {
   double usual_slip = 0.0;          // what firm ground would have had there, median over its steps
 };
 
-// Watches the ground under measured steps, sol after sol. The place is loose, no wheel is at fault: the slip of
-// the whole rover is all that is measured.
+// Watches the ground under measured steps, sol after sol. The place is loose, no wheel is at fault: the slip
+// of the whole rover is all that is measured.
 class GroundWatch {
  public:
   // The chain must outlive it.

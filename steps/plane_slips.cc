@@ -32,10 +32,10 @@ PlaneSlips::PlaneSlips(const sim::RoverModel& rover, double gravity_m_s2, const 
     for (std::size_t p = 0; p < kPitches; ++p) {
       const double pitch_deg = kPitchSpacing_deg * static_cast<double>(p) - kSteepest_deg;
       // A positive pitch of an attitude is nose down.
-      const sim::Stance stance = sim::stance_on_plane(
-          rover, {.roll_rad = rad_from_deg(kRollSpacing_deg * static_cast<double>(r)),
-                  .pitch_rad = rad_from_deg(-pitch_deg),
-                  .yaw_rad = 0.0});
+      const sim::Stance stance =
+          sim::stance_on_plane(rover, {.roll_rad = rad_from_deg(kRollSpacing_deg * static_cast<double>(r)),
+                                       .pitch_rad = rad_from_deg(-pitch_deg),
+                                       .yaw_rad = 0.0});
       const sim::StationState state = solver.solve(stance, soil, command);
       slips_[r][p] = state.moving() ? std::min(sim::measured_slip(state, command), 1.0) : 1.0;
     }

@@ -57,7 +57,7 @@ class StepForecaster {
   const GroundChain& chain_;
   StepLearning learning_;
   StepMemory memory_;
-  Eigen::ArrayXXd met_;               // soil x ground: stretches met, as far as remembered
+  Eigen::ArrayXXd met_;                // soil x ground: stretches met, as far as remembered
   std::optional<Eigen::ArrayXd> end_;  // probabilities of the soils where the last drive ended
 };
 

@@ -49,7 +49,8 @@ ProbabilityScore score_of(const std::vector<Chance>& cases) {
   constexpr std::array kEdges{0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0};
   constexpr double kLeast = 1e-6;
   ProbabilityScore out{.cases = cases.size(), .auc = area_under_curve(cases), .bins = {}};
-  for (std::size_t b = 0; b + 1 < kEdges.size(); ++b) out.bins.push_back({.least = kEdges[b], .most = kEdges[b + 1]});
+  for (std::size_t b = 0; b + 1 < kEdges.size(); ++b)
+    out.bins.push_back({.least = kEdges[b], .most = kEdges[b + 1]});
   for (const Chance& each : cases) {
     out.above += each.above ? 1 : 0;
     out.expected += each.probability;

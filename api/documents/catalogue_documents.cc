@@ -57,7 +57,8 @@ void write_soil_source(Writer& w, const TerrainDescription& terrain) {
   w.text("source", terrain.soil_source == SoilSource::kRaster     ? "raster"
                    : terrain.soil_source == SoilSource::kPolygons ? "polygons"
                                                                   : "none");
-  w.text("unknown_soil", unknown_ground_at(terrain.gravity_m_s2)).text("legend_name", terrain.legends.front().name);
+  w.text("unknown_soil", unknown_ground_at(terrain.gravity_m_s2))
+      .text("legend_name", terrain.legends.front().name);
   write_legend(w, terrain.legends.front());
   w.key("other_legends").begin_array();
   for (std::size_t l = 1; l < terrain.legends.size(); ++l) {

@@ -60,7 +60,8 @@ void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
     object.text("name", kRequired, {.most = 8, .is_name = true}, wheel.name);
     read_point(object, "position_m", wheel.position_m);
     read_fields(object, sim::wheel_fields(), kRequired, wheel);
-    if (double reckoned_m = 0.0; object.number("software_radius_m", kOptional, {"m", 0.01, 2.0}, reckoned_m) && reckoned_m > 0.0)
+    if (double reckoned_m = 0.0;
+        object.number("software_radius_m", kOptional, {"m", 0.01, 2.0}, reckoned_m) && reckoned_m > 0.0)
       wheel.software_radius_m = reckoned_m;
     wheel.grousers = read_grousers(object);
     if (!wheel.grousers) wheel.grousers = everywhere;

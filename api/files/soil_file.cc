@@ -238,8 +238,9 @@ void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
   reader.choice("alternatives_by", kOptional, kAlternativesBy, by);
   soil.alternatives_by = static_cast<sim::AlternativesBy>(by);
   if (in_patches && (soil.alternatives_by != sim::AlternativesBy::kUnit || whole == 0 || on_units <= 0.0))
-    reader.fault("alternatives",
-                 "in_patches is for alternatives with a weight and by unit, of which some are not in patches");
+    reader.fault(
+        "alternatives",
+        "in_patches is for alternatives with a weight and by unit, of which some are not in patches");
   reader.number("alternatives_spread", kOptional, {"1", 0.0, 5.0}, soil.alternatives_spread);
   reader.number("patches_spread", kOptional, {"1", 0.0, 5.0}, soil.patches_spread);
   if (soil.patches_spread > 0.0 && !in_patches)

@@ -148,8 +148,9 @@ void add_provenance(ReportPage& page, const JsonValue& check) {
       text(from, "terrain_fingerprint"), number(from, "gravity_m_s2"), soils.empty() ? "none" : soils,
       text(from, "unknown_soil"), number(from, "seed"),
       has(from, "past_drives")
-          ? fmt::format("; the ground is what {:.0f} drives of the past and {:.0f} measured metres leave of it",
-                        number(from, "past_drives"), number(from, "measured_m"))
+          ? fmt::format(
+                "; the ground is what {:.0f} drives of the past and {:.0f} measured metres leave of it",
+                number(from, "past_drives"), number(from, "measured_m"))
           : ""));
   if (has(from, "soil_assumption")) page.paragraph(text(from, "soil_assumption"));
 }

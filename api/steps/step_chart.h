@@ -6,8 +6,8 @@
 
 namespace slipway::api {
 
-// Measured slip over climb as dots, with the median and the 90 % band that were forecast, by bins of a degree:
-// an SVG document.
+// Measured slip over climb as dots, with the median and the 90 % band that were forecast, by bins of a
+// degree: an SVG document.
 std::string step_chart(const StepComparison& comparison);
 
 }  // namespace slipway::api

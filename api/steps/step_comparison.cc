@@ -50,7 +50,8 @@ class MappedSteps {
     if (!step.x_eqc_m || !step.y_eqc_m || !step.course_rad) return std::nullopt;
     const double east = std::sin(*step.course_rad), north = std::cos(*step.course_rad);
     const auto slope = [&](double dx, double dy) -> std::optional<double> {
-      const auto ahead = window_.terrain->height_m(*step.x_eqc_m + kReach_m * dx, *step.y_eqc_m + kReach_m * dy);
+      const auto ahead =
+          window_.terrain->height_m(*step.x_eqc_m + kReach_m * dx, *step.y_eqc_m + kReach_m * dy);
       const auto behind =
           window_.terrain->height_m(*step.x_eqc_m - kReach_m * dx, *step.y_eqc_m - kReach_m * dy);
       if (!ahead || !behind) return std::nullopt;
@@ -61,7 +62,8 @@ class MappedSteps {
     steps::ChainStep out = chain_step(step);
     out.pitch_rad = *along;
     out.roll_rad = *across;
-    const auto soil = window_.soil_map ? window_.soil_map->soil_at(*step.x_eqc_m, *step.y_eqc_m) : std::nullopt;
+    const auto soil =
+        window_.soil_map ? window_.soil_map->soil_at(*step.x_eqc_m, *step.y_eqc_m) : std::nullopt;
     out.ground = soil ? *soil + 1 : 0;
     return out;
   }
@@ -90,8 +92,7 @@ Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepCompa
                                      std::span<const steps::SlipStep> steps) {
   std::vector<Fault> faults;
   const auto rover = catalogue.rovers.find(request.rover);
-  if (rover == catalogue.rovers.end())
-    faults.push_back({"/rover", unknown_rover(catalogue, request.rover)});
+  if (rover == catalogue.rovers.end()) faults.push_back({"/rover", unknown_rover(catalogue, request.rover)});
   const auto terrain = catalogue.terrains.find(request.terrain);
   if (!request.terrain.empty() && terrain == catalogue.terrains.end())
     faults.push_back({"/terrain", unknown_terrain(catalogue, request.terrain)});

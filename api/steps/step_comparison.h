@@ -33,8 +33,8 @@ struct StepComparison {
   std::size_t off_map = 0;           // steps that are not on the terrain, left out
 };
 
-// The steps of one sol after another as the chain reads them. Without a terrain their slope and roll are their
-// own; where none is known, level.
+// The steps of one sol after another as the chain reads them. Without a terrain their slope and roll are
+// their own; where none is known, level.
 std::vector<std::vector<steps::ChainStep>> ways_of(std::span<const steps::SlipStep> steps);
 
 // Forecasts every measured step and compares it with what was measured. Errors: not_found for a rover or a

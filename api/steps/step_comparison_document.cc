@@ -43,34 +43,38 @@ void write(Writer& w, std::string_view key, const std::vector<steps::BandScore>&
 void write_step(Writer& w, const steps::SlipStep& step, const StepComparison& comparison,
                 const std::optional<StepComparison::Place>& place) {
   w.begin_object().whole("sol", step.sol);
-  const auto slope = place ? std::optional(comparison.sols[place->sol].steps[place->step].pitch_rad)
-                           : step.climb_rad();
+  const auto slope =
+      place ? std::optional(comparison.sols[place->sol].steps[place->step].pitch_rad) : step.climb_rad();
   slope ? w.key("path_pitch_deg").angle_deg(*slope) : w.key("path_pitch_deg").null();
   w.exact("slip", step.slip);
   if (!place) {
-    for (const char* key :
-         {"slip_p05", "slip_p50", "slip_p95", "p_over_0_2", "p_over_0_4"})
+    for (const char* key : {"slip_p05", "slip_p50", "slip_p95", "p_over_0_2", "p_over_0_4"})
       w.key(key).null();
   } else {
     const steps::StepForecast& f = comparison.sols[place->sol].forecast.steps[place->step];
-    w.significant("slip_p05", f.slip_p05).significant("slip_p50", f.slip_p50).significant("slip_p95", f.slip_p95);
+    w.significant("slip_p05", f.slip_p05)
+        .significant("slip_p50", f.slip_p50)
+        .significant("slip_p95", f.slip_p95);
     w.significant("p_over_0_2", f.over_0_2).significant("p_over_0_4", f.over_0_4);
   }
   w.end_object();
 }
 
 std::string with_interval(const steps::ResampledFigure& figure, double factor, int digits) {
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * figure.value, digits, factor * figure.low, digits,
-                     factor * figure.high, digits);
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * figure.value, digits, factor * figure.low,
+                     digits, factor * figure.high, digits);
 }
 
 }  // namespace
 
 std::string_view name_of(steps::StepLearning learning) {
   switch (learning) {
-    case steps::StepLearning::kNone: return "none";
-    case steps::StepLearning::kSols: return "sols";
-    case steps::StepLearning::kDrive: return "drive";
+    case steps::StepLearning::kNone:
+      return "none";
+    case steps::StepLearning::kSols:
+      return "sols";
+    case steps::StepLearning::kDrive:
+      return "drive";
   }
   return "";
 }
@@ -114,7 +118,8 @@ std::string step_comparison_text(const StepComparisonRequest& request, const Ste
       request.learning == steps::StepLearning::kNone   ? "nothing"
       : request.learning == steps::StepLearning::kSols ? "the sols before each"
                                                        : "the sols and the steps before each",
-      with_interval(s.median_error, 1.0, 4), with_interval(s.rms_error, 1.0, 4), with_interval(s.in_band, 100.0, 1));
+      with_interval(s.median_error, 1.0, 4), with_interval(s.rms_error, 1.0, 4),
+      with_interval(s.in_band, 100.0, 1));
   const auto add = [&](const char* what, const steps::ProbabilityScore& score) {
     out += fmt::format("{}: {} of {}, {:.1f} expected, AUC {:.2f}\n", what, score.above, score.cases,
                        score.expected, score.auc);

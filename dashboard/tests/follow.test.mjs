@@ -101,11 +101,11 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   await p.look("19_replan");
 
   // The corrected model goes to the plan, with the ground that is the drives' own.
-  await p.check('[data-ground="sandy_regolith"]');
+  await p.check('[data-ground="gale_smooth"]');
   await p.click('[data-do="replan"]');
   await p.waitForSelector(`#panel-plan [data-model="${job}"]`);
   const [request] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/plans")), p.click('[data-do="plan"]')]);
-  assert.deepEqual(request.postDataJSON().model, { diagnosis: job, ground: ["sandy_regolith"] });
+  assert.deepEqual(request.postDataJSON().model, { diagnosis: job, ground: ["gale_smooth"] });
   await p.verdict();
   const corrected = p.url();
   assert.match(await p.textContent(".verdict .banner"), /mer-class-cold.drives/, "the corrected rover drives");

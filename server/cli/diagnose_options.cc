@@ -62,10 +62,13 @@ void add_watch_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command = app.add_subcommand(
       "watch",
       "whether drives, in their order, still are what healthy ones were: since when, and what changed");
-  command->add_option("campaign", options->campaign,
-                   "folder of a drive campaign, its drives in their order; or a table of measured steps (*.csv)")
+  command
+      ->add_option(
+          "campaign", options->campaign,
+          "folder of a drive campaign, its drives in their order; or a table of measured steps (*.csv)")
       ->required();
-  command->add_option("--rover", options->rover, "rover that made the steps of a table")->capture_default_str();
+  command->add_option("--rover", options->rover, "rover that made the steps of a table")
+      ->capture_default_str();
   add_data_option(*command, options->data, "rovers and soils");
   CLI::Option* const reference = command->add_option(
       "--reference", options->reference, "folder of drives of the same rover that are taken as healthy");

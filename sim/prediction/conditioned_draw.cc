@@ -83,7 +83,8 @@ std::vector<ConditionedDraw> renewed(const std::vector<ConditionedDraw>& draws, 
     ConditionedDraw& copy = out.emplace_back(draws[from]);
     copy.number = draws[from].number.value_or(from);
     copy.weight = 1.0;
-    for (const std::uint64_t cell : copy.met) copy.redrawn.keys.try_emplace(cell, draws[from].redrawn.key_of(cell));
+    for (const std::uint64_t cell : copy.met)
+      copy.redrawn.keys.try_emplace(cell, draws[from].redrawn.key_of(cell));
     copy.redrawn.renewal = random_bits(key, k + 1) >> 33U;
   }
   // In an order in which the first of them are as good as any [Fisher & Yates].

@@ -203,8 +203,8 @@ std::uint64_t DrawnGround::unit_or_patch(Belief& belief, double x_m, double y_m)
   belief.in_patch = false;
   if (belief.share_in_patches <= 0.0) return unit;
   const double spread = belief.distribution->patches_spread;
-  const double share = belief.share_in_patches *
-                       std::exp(spread * random_normal(unit, kShareOfUnit) - 0.5 * spread * spread);
+  const double share =
+      belief.share_in_patches * std::exp(spread * random_normal(unit, kShareOfUnit) - 0.5 * spread * spread);
   const std::uint64_t patch =
       cell_at(random_key(belief.key, kInPatches), belief.distribution->correlation_length_m, x_m, y_m);
   belief.in_patch = random_uniform(patch, kPatchOrUnit) < std::min(share, kMostInPatches);
@@ -218,10 +218,9 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   const SoilNormals weak = weak_unit(of, belief.everywhere.head<kSoilDims>());
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
     const std::uint64_t choice = random_key(cell, tried);
-    belief.strength =
-        &chosen_alternative(of.alternatives, &SoilAlternative::strength_weight,
-                            random_uniform(choice, kStrengthChoice), belief.commonness,
-                            belief.share_in_patches > 0.0 ? std::optional(belief.in_patch) : std::nullopt);
+    belief.strength = &chosen_alternative(
+        of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice),
+        belief.commonness, belief.share_in_patches > 0.0 ? std::optional(belief.in_patch) : std::nullopt);
     belief.pressure = belief.strength;
     if (of.drawn_apart)
       belief.pressure = &chosen_alternative(of.alternatives, &SoilAlternative::pressure_weight,

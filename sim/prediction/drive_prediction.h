@@ -246,7 +246,8 @@ struct OutcomeBars {
 
 // Units and patches of a draw of the ground that are another draw.
 struct RedrawnCells {
-  std::unordered_map<std::uint64_t, std::uint64_t> keys = {};  // of each cell's key the key that it has instead
+  std::unordered_map<std::uint64_t, std::uint64_t> keys =
+      {};  // of each cell's key the key that it has instead
   // Of a renewed draw: all cells without such a key are another draw too, one for each number; 0 of no other.
   std::uint64_t renewal = 0;
 
@@ -264,9 +265,9 @@ struct ConditionedDraw {
 // (sum of the weights)^2 / sum of their squares.
 double effective_draws(const std::vector<ConditionedDraw>& draws);
 
-// As many draws of equal weight, each copied as often as its weight has it (systematic resampling [Douc, Cappe
-// & Moulines 2005]), in a random order. Copies share the ground that past drives were on, and have ground of
-// their own everywhere else, so that what is rare there is counted by all of them.
+// As many draws of equal weight, each copied as often as its weight has it (systematic resampling [Douc,
+// Cappe & Moulines 2005]), in a random order. Copies share the ground that past drives were on, and have
+// ground of their own everywhere else, so that what is rare there is counted by all of them.
 std::vector<ConditionedDraw> renewed(const std::vector<ConditionedDraw>& draws, std::size_t count,
                                      std::uint64_t key);
 

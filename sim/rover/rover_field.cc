@@ -55,12 +55,12 @@ constexpr std::array kGrousers{
                          .number = [](Grousers& g) -> double& { return g.braking; },
                          .presence = kOptional,
                          .writing = FieldWriting::kUnlessInitial},
-    ModelField<Grousers>{.field = {"by_slip", "1",
-                                   "share of their shear displacement that follows from slip alone", 0.0, 1.0,
-                                   0.0},
-                         .number = [](Grousers& g) -> double& { return g.by_slip; },
-                         .presence = kOptional,
-                         .writing = FieldWriting::kUnlessInitial},
+    ModelField<Grousers>{
+        .field = {"by_slip", "1", "share of their shear displacement that follows from slip alone", 0.0, 1.0,
+                  0.0},
+        .number = [](Grousers& g) -> double& { return g.by_slip; },
+        .presence = kOptional,
+        .writing = FieldWriting::kUnlessInitial},
     ModelField<Grousers>{
         .field = {"surcharge", "1", "share of the rim's pressure that presses on the soil before a grouser",
                   0.0, 1.0, 0.0},

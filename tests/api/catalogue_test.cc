@@ -74,9 +74,8 @@ TEST(ShippedSoils, SayWhereTheyComeFromAndWhatIsAssumed) {
 
 TEST(ShippedRovers, SatisfyTheSimulator) {
   const auto& rovers = small_world().catalogue()->rovers;
-  EXPECT_EQ(names_of(rovers),
-            (std::vector<std::string>{"cuadriga", "fido-class", "m2020-class", "mer-class", "msl-class",
-                                      "zhurong-class"}));
+  EXPECT_EQ(names_of(rovers), (std::vector<std::string>{"cuadriga", "fido-class", "m2020-class", "mer-class",
+                                                        "msl-class", "zhurong-class"}));
   for (const auto& [name, rover] : rovers) {
     EXPECT_EQ(sim::faults_of(*rover), std::vector<Fault>{}) << name;
     const double fastest = rover->drive.max_wheel_rate_rad_s * rover->smallest_wheel_radius_m();

@@ -181,7 +181,13 @@ TEST(DriveOutcomeTable, ReadsDrivesBySolAndNamesEveryFault) {
   ASSERT_TRUE(table) << table.error().detail;
   EXPECT_EQ(table->drives.front().sol, 2);
   EXPECT_EQ(table->drives.back().outcome, PastOutcome::kSlipStop);
-  EXPECT_EQ(places_of(*table, 5).size(), 2u) << "only drives before the sol";
+  std::vector<steps::SlipStep> measured(3);
+  measured[0].x_eqc_m = measured[0].y_eqc_m = 1.0;
+  measured[0].sol = 4;
+  measured[1] = measured[0];
+  measured[1].sol = 5;
+  measured[2].sol = 1;
+  EXPECT_EQ(places_of({*table, measured}, 5).size(), 3u) << "only drives and mapped steps before the sol";
   const auto faulty = read_drive_outcomes(
       R"({"format":"drive-outcomes/1","rover":"msl-class","drives":[{"sol":-1,"outcome":"lost","path":[[0,0],[1]]}]})");
   ASSERT_FALSE(faulty);

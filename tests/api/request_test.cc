@@ -83,10 +83,10 @@ TEST(PlanRequest, ARefusalNamesEveryFault) {
                                       "/start", "/goal"}));
   EXPECT_EQ(request.error().faults[1].message, "max_tilt_deg = 212 deg, must be in (0, 60]");
   EXPECT_NE(request.error().faults[2].message.find("did you mean \"max_slip\"?"), std::string::npos);
-  EXPECT_EQ(
-      request.error().faults[3].message,
-      "unknown rover \"mer\"; did you mean \"mer-class\"? known: cuadriga, fido-class, m2020-class, mer-class, "
-      "msl-class, zhurong-class");
+  EXPECT_EQ(request.error().faults[3].message,
+            "unknown rover \"mer\"; did you mean \"mer-class\"? known: cuadriga, fido-class, m2020-class, "
+            "mer-class, "
+            "msl-class, zhurong-class");
   EXPECT_EQ(request.error().faults[4].message, "(85, 45) m has no elevation: the terrain is not known there");
   EXPECT_EQ(request.error().faults[5].message,
             "(500, 40) m is off the map, must be in x [0, 120] m and y [0, 100] m");

@@ -68,7 +68,7 @@ class LargeSoilTiles(unittest.TestCase):
         for name in ("level", "classes"):
             subprocess.run(["gdal_translate", "-q", "-a_srs", MARS, "-ot", "Float32" if name == "level" else "Byte",
                             self.here / f"{name}.asc", self.here / f"{name}.tif"], check=True)
-        (self.here / "legend.csv").write_text("value,label,soil\n1,firm,jlu_mars_2_dense\n2,loose,rippled_sand\n")
+        (self.here / "legend.csv").write_text("value,label,soil\n1,firm,jlu_mars_2_dense\n2,loose,mars_dune\n")
         subprocess.run([SLIPWAY, "terrain", "import", self.here / "level.tif", "--data", self.data, "--name", "wide", "--soil",
                         self.here / "classes.tif", "--legend", self.here / "legend.csv", "--assumption", "made for a test"],
                        check=True, capture_output=True)

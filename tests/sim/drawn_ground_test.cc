@@ -248,7 +248,8 @@ TEST(DrawnGround, ARenewedDrawKeepsTheGroundThatWasMetAndHasItsOwnElsewhere) {
   const double here = log_k(before.at(0, 1.0, 1.0));
   const auto copies = renewed({draw}, 2, 9);
   ASSERT_EQ(copies.size(), 2U);
-  DrawnGround one(beliefs, random_key(1, 0), {}, &copies[0].redrawn), other(beliefs, random_key(1, 0), {}, &copies[1].redrawn);
+  DrawnGround one(beliefs, random_key(1, 0), {}, &copies[0].redrawn),
+      other(beliefs, random_key(1, 0), {}, &copies[1].redrawn);
   EXPECT_EQ(log_k(one.at(0, 1.0, 1.0)), here);
   EXPECT_EQ(log_k(other.at(0, 1.0, 1.0)), here);
   EXPECT_NE(log_k(one.at(0, 5000.0, 1.0)), log_k(other.at(0, 5000.0, 1.0)));

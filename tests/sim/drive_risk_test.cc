@@ -357,8 +357,8 @@ TEST(DriveRisk, GoodDrivesLeaveAGoAndAStopTakesItBack) {
   NoProgress progress;
   const auto learn = [&](double from_m, bool stopped) {
     const auto done =
-        condition_draws(kRover, 3.71, ground.ground, ground.beliefs, drive(from_m), ground.tight, ground.options,
-                        {stopped, 0.05, stopped ? 16 : 2}, 1, progress, draws);
+        condition_draws(kRover, 3.71, ground.ground, ground.beliefs, drive(from_m), ground.tight,
+                        ground.options, {stopped, 0.05, stopped ? 16 : 2}, 1, progress, draws);
     ASSERT_TRUE(done);
     if (effective_draws(draws) < 100.0)
       draws = renewed(draws, draws.size(), random_key(2, static_cast<std::uint64_t>(from_m)));

@@ -1,15 +1,16 @@
+#include "steps/belief_fit.h"
+
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
 #include "six_wheels.h"
-#include "steps/belief_fit.h"
 
 namespace slipway::steps {
 namespace {
 
-// Ways over two soils of the wheel law, one of them loose in runs of eight steps, with an odometry that counts
-// 2.5 % too much.
+// Ways over two soils of the wheel law, one of them loose in runs of eight steps, with an odometry that
+// counts 2.5 % too much.
 std::vector<std::vector<ChainStep>> made_ways() {
   sim::RoverModel rover = six_wheels();
   for (sim::WheelModel& wheel : rover.wheels) wheel.software_radius_m = 1.0 / 0.975 * wheel.radius_m;
@@ -30,7 +31,8 @@ std::vector<std::vector<ChainStep>> made_ways() {
     for (std::uint64_t t = 0; t < 40; ++t) {
       ChainStep step{.pitch_rad = rad_from_deg(-6.0 + 14.0 * random_uniform(s, t))};
       const bool is_loose = s % 5 == 0 && t >= 20 && t < 28;
-      step.slip = (is_loose ? on_loose : on_firm).at(step.pitch_rad, 0.0) + 0.015 * random_normal(random_key(s, 1), t);
+      step.slip = (is_loose ? on_loose : on_firm).at(step.pitch_rad, 0.0) +
+                  0.015 * random_normal(random_key(s, 1), t);
       way.push_back(step);
     }
   }

@@ -1,13 +1,14 @@
+#include "steps/ground_chain.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "steps/ground_chain.h"
+#include "six_wheels.h"
 #include "steps/step_forecaster.h"
 #include "steps/step_scores.h"
-#include "six_wheels.h"
 
 namespace slipway::steps {
 namespace {
@@ -79,8 +80,7 @@ TEST(GroundChain, KeepsTheSharesOfTheGroundWhereNothingIsMeasured) {
   const GroundChain ground = chain();
   const std::vector<ChainStep> steps(50);
   const Eigen::ArrayXd shares = ground.grounds[0].shares;
-  const ChainPass pass = follow(ground, steps, Eigen::ArrayXXd::Ones(2, 50), shares,
-                                {shares});
+  const ChainPass pass = follow(ground, steps, Eigen::ArrayXXd::Ones(2, 50), shares, {shares});
   for (Eigen::Index t = 0; t < 50; ++t) EXPECT_NEAR(pass.before(1, t), shares[1], 1e-12);
   EXPECT_NEAR(pass.smoothed.sum(), 50.0, 1e-9);
   EXPECT_NEAR(pass.smoothed(1, 25), shares[1], 1e-9);

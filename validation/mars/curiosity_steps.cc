@@ -47,16 +47,28 @@ Result<Report> curiosity_steps(const std::filesystem::path& data) {
   const std::array tables{
       Table{"sols 45 to 582", "steps/curiosity_0045_0582.csv", {}, steps::StepLearning::kDrive},
       Table{"Marias Pass, sols 960 to 997", kMariasPass, {}, steps::StepLearning::kDrive},
-      Table{"Marias Pass, slope and soil from the map", kMariasPass, {.terrain = "gale", .legend = {}},
+      Table{"Marias Pass, slope and soil from the map",
+            kMariasPass,
+            {.terrain = "gale", .legend = {}},
             steps::StepLearning::kNone},
-      Table{"Perseverance, sols 15 to 700", "steps/perseverance_0014_0700.csv",
-            {.rover = "m2020-class", .terrain = {}, .legend = {}}, steps::StepLearning::kNone}};
+      Table{"Perseverance, sols 15 to 700",
+            "steps/perseverance_0014_0700.csv",
+            {.rover = "m2020-class", .terrain = {}, .legend = {}},
+            steps::StepLearning::kNone}};
   Report report;
   report.title = "Slip of single metres on Mars";
   report.source =
-      "NASA/JPL: SPICE kernels of PDS data set MSL-M-SPICE-6-V1.0 (Semenov and Acton 2013); PDS Mars 2020 PLACES";
-  report.columns = {"steps", "learned from", "number", "sols", "median error", "in the 90 % band, %",
-                    "above 0.2, expected / measured", "above 0.4, expected / measured", "AUC of 0.4"};
+      "NASA/JPL: SPICE kernels of PDS data set MSL-M-SPICE-6-V1.0 (Semenov and Acton 2013); PDS Mars 2020 "
+      "PLACES";
+  report.columns = {"steps",
+                    "learned from",
+                    "number",
+                    "sols",
+                    "median error",
+                    "in the 90 % band, %",
+                    "above 0.2, expected / measured",
+                    "above 0.4, expected / measured",
+                    "AUC of 0.4"};
   for (const Table& table : tables) {
     const auto steps = read_table(data, table.file);
     if (!steps) return fail(steps.error());
@@ -71,20 +83,26 @@ Result<Report> curiosity_steps(const std::filesystem::path& data) {
       if (learning != steps::StepLearning::kNone || &table != &tables.front()) continue;
       report.bands.push_back({"median error of slip, sols 45 to 582, learned from nothing",
                               comparison->scores.median_error.value, 0.0, 0.020});
-      report.bands.push_back({"share in the 90 % band, the same", comparison->scores.in_band.value, 0.84, 0.97});
+      report.bands.push_back(
+          {"share in the 90 % band, the same", comparison->scores.in_band.value, 0.84, 0.97});
       report.plot = api::step_chart(*comparison);
     }
   }
   report.notes = {
-      "The belief (soils gale_firm_*, gale_loose_*, unknown_ground) is fitted to both tables of Curiosity, so "
-      "that its rows with \"none\" are no blind forecast. Fitted to sols 45 to 449 alone it had on sols 450 to "
+      "The belief (soils gale_firm_*, gale_loose_*, unknown_ground) is fitted to both tables of Curiosity, "
+      "so "
+      "that its rows with \"none\" are no blind forecast. Fitted to sols 45 to 449 alone it had on sols 450 "
+      "to "
       "582 a median error of 0.018, 94 % in the band and 0.1 expected steps above 0.4 where there was 1; at "
-      "Marias Pass 0.0215, 86 % and 0.6 where there were 11: what rarely happens can't be learned where it did "
+      "Marias Pass 0.0215, 86 % and 0.6 where there were 11: what rarely happens can't be learned where it "
+      "did "
       "not happen.",
-      "Downhill of -6 deg the band holds 85 % of the steps, above 3 deg of climb 97 %: the scatter is fitted as "
+      "Downhill of -6 deg the band holds 85 % of the steps, above 3 deg of climb 97 %: the scatter is fitted "
+      "as "
       "one number for all slopes.",
       "Perseverance's rover file is made of published figures, its belief is Curiosity's: nothing is fitted. "
-      "Its steps have the mean slope of their sol, and single rows above 0.4 may be steps that were cut short."};
+      "Its steps have the mean slope of their sol, and single rows above 0.4 may be steps that were cut "
+      "short."};
   return report;
 }
 

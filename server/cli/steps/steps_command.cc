@@ -109,13 +109,14 @@ Result<std::vector<steps::GroundClassSteps>> classes_of(const StepsLearnCommand&
     if (of.ways.empty())
       faults.push_back({"/class", fmt::format("no step of the tables belongs to {}", in_quotes(text))});
   }
-  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, "the classes can't be fitted", std::move(faults));
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "the classes can't be fitted", std::move(faults));
   return classes;
 }
 
 std::string words(const steps::FittedNumber& number, double factor, int digits) {
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * number.value, digits, factor * number.low, digits,
-                     factor * number.high, digits);
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * number.value, digits, factor * number.low,
+                     digits, factor * number.high, digits);
 }
 
 std::string fit_words(const steps::BeliefFit& fit) {
@@ -138,7 +139,8 @@ std::string fit_words(const steps::BeliefFit& fit) {
     double share = 0.0;
     for (std::size_t k = 0; k < fit.soils.size(); ++k)
       share += fit.soils[k].in_patches ? fit.classes[c].shares[k] : 0.0;
-    out += fmt::format("{}: {} steps, {:.1f} % loose\n", fit.classes[c].name, fit.classes[c].steps, 100.0 * share);
+    out += fmt::format("{}: {} steps, {:.1f} % loose\n", fit.classes[c].name, fit.classes[c].steps,
+                       100.0 * share);
   }
   return out;
 }
@@ -183,8 +185,9 @@ int steps_learn(const StepsLearnCommand& options) {
   if (!catalogue) return refuse(catalogue.error());
   const auto rover = catalogue->rovers.find(options.rover);
   if (rover == catalogue->rovers.end())
-    return refuse_unreadable(
-        {ErrorCode::kNotFound, "nothing can be learned", {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
+    return refuse_unreadable({ErrorCode::kNotFound,
+                              "nothing can be learned",
+                              {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
   constexpr double kMars_m_s2 = 3.71;
   const steps::BeliefFitOptions fit_options;
   TerminalProgress progress;
@@ -192,10 +195,11 @@ int steps_learn(const StepsLearnCommand& options) {
       steps::fit_belief(*rover->second, kMars_m_s2, api::ways_of(table), *classes, fit_options, progress);
   if (!fit) return refuse(fit.error());
   const std::string source =
-      fmt::format("slipway steps learn: {} measured steps of {} sols, {}; see docs/results/mars.md", fit->steps,
-                  fit->ways, options.rover);
-  return deliver({{options.out, soils_file(steps::as_soils(*fit, fit_options, source), *catalogue->soil_format)}},
-                 fit_words(*fit));
+      fmt::format("slipway steps learn: {} measured steps of {} sols, {}; see docs/results/mars.md",
+                  fit->steps, fit->ways, options.rover);
+  return deliver(
+      {{options.out, soils_file(steps::as_soils(*fit, fit_options, source), *catalogue->soil_format)}},
+      fit_words(*fit));
 }
 
 }  // namespace slipway::server

@@ -16,9 +16,10 @@ void add_score(CLI::App& steps, std::function<int()>& run) {
   command->add_option("--rover", options->rover, "rover that made the steps")->capture_default_str();
   command->add_option("--terrain", options->terrain, "take slope and soil from this terrain's map");
   command->add_option("--legend", options->legend, "legend of the terrain; its first where not given");
-  command->add_option("--learn", options->learn,
-                      "what a forecast knows: none, sols (the sols before it) or drive (also the steps before "
-                      "it on its sol)")
+  command
+      ->add_option("--learn", options->learn,
+                   "what a forecast knows: none, sols (the sols before it) or drive (also the steps before "
+                   "it on its sol)")
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "sols", "drive"}));
   command->add_option("--plot", options->plot, "file for a picture of slip over climb (SVG)");
@@ -37,9 +38,10 @@ void add_learn(CLI::App& steps, std::function<int()>& run) {
   command->add_option("tables", options->tables, "files of steps (CSV, \"slip-steps/1\")")->required();
   add_data_option(*command, options->data, "rovers");
   command->add_option("--rover", options->rover, "rover that made the steps")->capture_default_str();
-  command->add_option("--class", options->classes,
-                      "a class of ground fitted to some steps: NAME=978,538:20-36 (sols, or steps of a sol) or "
-                      "NAME=unit:SM,SMR (the table's terrain_unit)");
+  command->add_option(
+      "--class", options->classes,
+      "a class of ground fitted to some steps: NAME=978,538:20-36 (sols, or steps of a sol) or "
+      "NAME=unit:SM,SMR (the table's terrain_unit)");
   command->add_option("--out", options->out, "file of the soils (JSON, \"soils/1\")")->required();
   command->footer(
       "Example:\n"

@@ -38,19 +38,21 @@ std::string document(const std::vector<steps::SlipStep>& table, const std::vecto
 }
 
 std::string words(const std::vector<steps::SlipStep>& table, const std::vector<Alarm>& alarms) {
-  std::string out = fmt::format("{} measured steps of sols {} to {}\n", table.size(), table.front().sol,
-                                table.back().sol);
+  std::string out =
+      fmt::format("{} measured steps of sols {} to {}\n", table.size(), table.front().sol, table.back().sol);
   for (const Alarm& alarm : alarms) {
     const steps::SlipStep& step = table[alarm.row];
     out += fmt::format(
-        "sol {}, steps {} to {}{}: a soft patch (probability {:.3f}): slip up to {:.2f} where firm ground has "
+        "sol {}, steps {} to {}{}: a soft patch (probability {:.3f}): slip up to {:.2f} where firm ground "
+        "has "
         "{:.2f}\n",
         alarm.sol, alarm.stretch.first + 1, alarm.stretch.last + 1,
         step.x_eqc_m && step.y_eqc_m ? fmt::format(" at ({:.1f}, {:.1f})", *step.x_eqc_m, *step.y_eqc_m) : "",
         alarm.stretch.probability, alarm.stretch.largest_slip, alarm.stretch.usual_slip);
   }
-  out += alarms.empty() ? "no sol came onto loose ground\n"
-                        : "the ground changed there, not the rover: the slip of the whole rover tells no wheel\n";
+  out += alarms.empty()
+             ? "no sol came onto loose ground\n"
+             : "the ground changed there, not the rover: the slip of the whole rover tells no wheel\n";
   return out;
 }
 

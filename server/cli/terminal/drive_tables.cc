@@ -138,10 +138,11 @@ std::string measured_line(const JsonValue& document) {
   const JsonValue* const near = at(document, "provenance").find("measured_near");
   return near == nullptr
              ? std::string()
-             : fmt::format("Measured within {:g} m of the way: {:.0f} steps over {:.0f} m, median slip {:.2f}, "
-                           "largest {:.2f}\n",
-                           number(*near, "within_m"), number(*near, "steps"), number(*near, "way_m"),
-                           number(*near, "median_slip"), number(*near, "largest_slip"));
+             : fmt::format(
+                   "Measured within {:g} m of the way: {:.0f} steps over {:.0f} m, median slip {:.2f}, "
+                   "largest {:.2f}\n",
+                   number(*near, "within_m"), number(*near, "steps"), number(*near, "way_m"),
+                   number(*near, "median_slip"), number(*near, "largest_slip"));
 }
 
 // What cells of the map's size can't show, where they are large.
@@ -226,7 +227,8 @@ std::string drive_lines(const JsonValue& document, bool why) {
   out += position_line(document);
   out += fmt::format("{:.0f} sols expected until the drive is through, over {:.0f} draws of the ground\n",
                      std::ceil(number(outcomes, "expected_sols") - 1e-9), number(outcomes, "draws"));
-  return out + dynamic_lines(figures, "Verified by dynamics") + measured_line(document) + unseen_line(document);
+  return out + dynamic_lines(figures, "Verified by dynamics") + measured_line(document) +
+         unseen_line(document);
 }
 
 std::string why_routes(const JsonValue& plan) {
