@@ -46,7 +46,7 @@ class CommandLineContract(WithServer):
         self.assertIn("/start", wrong.stderr)
         for command in ("terrain", "rovers", "soils"):
             self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "watch", "import", "import spice", "check", "estimate", "estimate wheel", "terrain", "terrain import", "data check", "rovers", "soils"):
+        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "watch", "import", "import spice", "steps score", "steps learn", "check", "estimate", "estimate wheel", "terrain", "terrain import", "data check", "rovers", "soils"):
             shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)
