@@ -37,7 +37,7 @@ struct StepComparison {
 // their own; where none is known, level.
 std::vector<std::vector<steps::ChainStep>> ways_of(std::span<const steps::SlipStep> steps);
 
-// Forecasts every measured step and compares it with what was measured. Errors: not_found for a rover or a
+// Forecasts every measured step and compares it with what was measured. Errors: invalid_request for a rover or a
 // terrain, kInvalidRequest where the terrain is asked for and no step lies on it, and those of reading it.
 Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepComparisonRequest& request,
                                      std::span<const steps::SlipStep> steps);

@@ -1273,6 +1273,16 @@ export interface components {
             seed?: number;
             /** @description Drives of the past that condition the draws; only with as_of_sol */
             past_drives?: number;
+            /** @description Way over which slip was measured in the past, in metres, that conditions the draws; only with as_of_sol */
+            measured_m?: number;
+            /** @description Slip that rovers measured within so many metres of the way, or of the best route; not there where none was */
+            measured_near?: {
+                within_m: number;
+                steps: number;
+                way_m: number;
+                median_slip: number;
+                largest_slip: number;
+            };
             relief?: components["schemas"]["Relief"];
         };
         /** @description How far the ground may be from the map. In a request: each draw has a relief of its own, with these values over those of the terrain ({} takes the terrain's as they are), so that tilt and clearance have intervals; it takes some ten times as long. Without the object the map's relief is taken as the ground's. */
@@ -2593,9 +2603,13 @@ export interface components {
                     braking?: number;
                     /** @description Where the soil is sheared: 0 at the rim, 1 at the tips */
                     shear_share?: number;
+                    /** @description Share of their shear displacement that follows from slip alone instead of the rim's path; 0 where it is left out */
+                    by_slip?: number;
                     /** @description How much of what height and spacing give is added to that share */
                     shear_by_spacing?: number;
                 };
+                /** @description Radius that odometry reckons with, m; radius_m where it is left out. Slip that a drive measures holds the difference */
+                software_radius_m?: number;
                 steerable?: boolean;
                 /**
                  * @description Absent: driven
@@ -2786,6 +2800,8 @@ export interface components {
                 pressure_weight?: number;
                 strength_weight?: number;
                 weight?: number;
+                /** @description Of alternatives by unit: it lies in patches of correlation_length_m within the units of the others */
+                in_patches?: boolean;
             }[];
             /**
              * @description Over what ground one of the alternatives holds
@@ -2794,6 +2810,8 @@ export interface components {
             alternatives_by?: "everywhere" | "unit" | "patch";
             /** @description Standard deviation from draw to draw of the logarithm of each alternative's weight */
             alternatives_spread?: number;
+            /** @description Standard deviation from unit to unit of the logarithm of the share of patches */
+            patches_spread?: number;
         };
         SoilEstimateRequest: {
             /** @description Drives that the service ships; then there are no tests */

@@ -185,7 +185,7 @@ int steps_learn(const StepsLearnCommand& options) {
   if (!catalogue) return refuse(catalogue.error());
   const auto rover = catalogue->rovers.find(options.rover);
   if (rover == catalogue->rovers.end())
-    return refuse_unreadable({ErrorCode::kNotFound,
+    return refuse_unreadable({ErrorCode::kInvalidRequest,
                               "nothing can be learned",
                               {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
   constexpr double kMars_m_s2 = 3.71;

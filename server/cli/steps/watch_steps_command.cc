@@ -67,7 +67,7 @@ int watch_steps(const WatchCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto rover = catalogue->rovers.find(options.rover);
   if (rover == catalogue->rovers.end())
-    return refuse_unreadable({ErrorCode::kNotFound,
+    return refuse_unreadable({ErrorCode::kInvalidRequest,
                               "nothing can be watched",
                               {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
   constexpr double kMars_m_s2 = 3.71;
