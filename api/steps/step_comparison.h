@@ -37,8 +37,8 @@ struct StepComparison {
 // their own; where none is known, level.
 std::vector<std::vector<steps::ChainStep>> ways_of(std::span<const steps::SlipStep> steps);
 
-// Forecasts every measured step and compares it with what was measured. Errors: invalid_request for a rover or a
-// terrain, kInvalidRequest where the terrain is asked for and no step lies on it, and those of reading it.
+// Forecasts every measured step and compares it with what was measured. Errors: invalid_request for a rover
+// or a terrain that is not known, or on which no step lies, and those of reading it.
 Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepComparisonRequest& request,
                                      std::span<const steps::SlipStep> steps);
 
