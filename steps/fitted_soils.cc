@@ -76,7 +76,6 @@ std::vector<sim::SoilDistribution> as_soils(const BeliefFit& fit, const BeliefFi
     belief.drawn_apart = false;
     belief.alternatives_by = sim::AlternativesBy::kUnit;
     belief.alternatives_spread = kSharesSpread;
-    belief.patches_spread = kPatchesSpread;
     for (std::size_t k = 0; k < fit.soils.size(); ++k) {
       const double share = std::round(1e5 * of.shares[k]) / 1e5;
       if (share <= 0.0) continue;
@@ -84,6 +83,9 @@ std::vector<sim::SoilDistribution> as_soils(const BeliefFit& fit, const BeliefFi
                                      std::make_shared<const sim::SoilDistribution>(soils[k]), share, share,
                                      fit.soils[k].in_patches});
     }
+    if (std::any_of(belief.alternatives.begin(), belief.alternatives.end(),
+                    [](const sim::SoilAlternative& each) { return each.in_patches; }))
+      belief.patches_spread = kPatchesSpread;
     soils.push_back(std::move(belief));
   }
   return soils;

@@ -180,6 +180,19 @@ class Picture {
     out_ += "</g>\n";
   }
 
+  // Steps whose slip was measured here, of the sols before the answer's where it has one.
+  void draw_measured(const std::vector<steps::SlipStep>& steps, const JsonValue& request) {
+    const JsonValue* const as_of_sol = request.find("as_of_sol");
+    for (const steps::SlipStep& step : steps) {
+      if (!step.x_eqc_m || !step.y_eqc_m || !extent_.contains(*step.x_eqc_m, *step.y_eqc_m)) continue;
+      if (as_of_sol && step.sol >= as_of_sol->number) continue;
+      measured_ = true;
+      out_ += fmt::format(
+          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\" stroke=\"black\" stroke-width=\"0.5\"/>\n",
+          x(*step.x_eqc_m), y(*step.y_eqc_m), kSlipColours[class_of(kSlipColours, step.slip)].colour);
+    }
+  }
+
   void draw_route(const DrawnRoute& route) {
     line(route, 0, route.x_m.size() - 1, "white", 7.0, false);
     for (std::size_t begin = 0; begin + 1 < route.x_m.size();) {
@@ -296,6 +309,9 @@ class Picture {
         "on unknown ground");
     row("<circle cx=\"14\" cy=\"0\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>",
         "largest slip of a route");
+    if (measured_)
+      row("<circle cx=\"14\" cy=\"0\" r=\"3\" fill=\"#1a9850\" stroke=\"black\" stroke-width=\"0.5\"/>",
+          "measured slip");
     if (has_keep_out_)
       row("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"#d7191c\" fill-opacity=\"0.5\"/>", "keep-out");
     if (has_keep_in_)
@@ -314,7 +330,7 @@ class Picture {
   const GroundWindow& ground_;
   std::span<const ValueColour> colours_;
   dem::Extent extent_;
-  bool checks_ = false, has_keep_out_ = false, has_keep_in_ = false;
+  bool checks_ = false, has_keep_out_ = false, has_keep_in_ = false, measured_ = false;
   double scale_ = 1.0, height_px_ = 0.0;
   std::string out_;
   std::vector<LegendRow> legend_;
@@ -373,6 +389,7 @@ Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view 
   if (const auto ground = picture.draw_ground(); !ground) return fail(ground.error());
   picture.draw_soils();
   picture.draw_zones(json::at(*document, "request"));
+  picture.draw_measured(drawn->site->steps(), json::at(*document, "request"));
   // The best route last, so that it lies on top.
   for (auto route = routes.rbegin(); route != routes.rend(); ++route) picture.draw_route(*route);
   for (std::size_t k = 0; k < routes.size(); ++k) picture.label_route(routes[k], k, routes.size());
@@ -391,6 +408,7 @@ Result<std::string> draw_outcome_map(const Catalogue& catalogue, const JsonValue
   if (const auto ground = picture.draw_ground(); !ground) return fail(ground.error());
   picture.draw_soils();
   picture.draw_zones(json::at(check, "request"));
+  picture.draw_measured(drawn->site->steps(), json::at(check, "request"));
   picture.draw_route(route);
   picture.mark_worst(route);
   picture.mark_checks(route, numbers(json::at(outcomes, "recommended"), "slip_checks_before_m"));
