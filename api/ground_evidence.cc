@@ -50,7 +50,11 @@ Result<void> learn_drive(const planner::PlanProblem& problem, const PastEvidence
   const bool stopped = drive.outcome == PastOutcome::kSlipStop;
   const bool measured = std::any_of(past.steps.begin(), past.steps.end(),
                                     [&](const steps::SlipStep& step) { return step.sol == drive.sol; });
-  if (drive.outcome == PastOutcome::kNoReport || (measured && !stopped)) return {};
+  if (drive.outcome == PastOutcome::kNoReport) return {};
+  if (measured && !stopped) {
+    ++ground.drives;
+    return {};
+  }
   const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
   if (path.size() < 2) return {};
   const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};

@@ -16,8 +16,8 @@ namespace slipway::api {
 // What was driven and measured on this ground, and the ground after it.
 struct GroundEvidence {
   std::shared_ptr<const std::vector<sim::ConditionedDraw>> draws;  // of equal weight
-  int drives = 0;                                                  // whose outcomes were used
-  double measured_m = 0.0;                                         // over which slip was measured
+  int drives = 0;           // whose outcomes or measured slip were used
+  double measured_m = 0.0;  // over which slip was measured
 };
 
 // What is known of drives of the past on a terrain.

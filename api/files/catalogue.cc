@@ -250,6 +250,10 @@ Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDis
   }
   for (const auto& [name, unjoined] : join_alternatives(catalogue)) {
     const auto own = given.find(name);
+    // Beliefs about other bodies that the request does not give keep the soils that ship.
+    const bool is_elsewhere = std::any_of(kUnmappedElsewhere.begin(), kUnmappedElsewhere.end(),
+                                          [&](const UnmappedGround& body) { return body.belief == name; });
+    if (own == given.end() && is_elsewhere) continue;
     for (const Fault& fault : unjoined)
       faults.push_back({own != given.end() ? fmt::format("/beliefs/{}{}", own->second, fault.pointer)
                                            : std::string("/beliefs"),

@@ -51,7 +51,9 @@ Result<Catalogue> load_catalogue(const std::filesystem::path& data,
 // their names. Those with faults are left out.
 Catalogue with_terrains(Catalogue catalogue, const std::filesystem::path& folder);
 
-// The catalogue with soils that stand in for those of the same names, or beside them. Errors:
+// The catalogue with soils that stand in for those of the same names, or beside them. One that has
+// alternatives can't be an alternative itself, but that unmapped ground of the Moon and of Earth keeps the
+// soils that ship. Errors:
 // invalid_request, places under "/beliefs".
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils);
 

@@ -178,13 +178,13 @@ TEST(Catalogue, WithoutARoverOrTheSoilOfUnknownGroundThereIsNone) {
   std::filesystem::remove_all(folder.path() / "rovers");
   std::filesystem::create_directories(folder.path() / "rovers");
   write_file(folder.path() / "rovers" / "broken.json", "{");
-  write_file(folder.path() / "soils" / "unknown_ground.json", "{");
+  write_file(folder.path() / "soils" / "gale_steps.json", "{");
   const auto catalogue = load_catalogue(folder.path());
   ASSERT_FALSE(catalogue);
   EXPECT_EQ(catalogue.error().code, ErrorCode::kUnreadableData);
   std::set<std::string> pointers;
   for (const Fault& fault : catalogue.error().faults) pointers.insert(fault.pointer);
-  for (const char* expected : {"rovers#", "soils#", "rovers/broken.json#", "soils/unknown_ground.json#"})
+  for (const char* expected : {"rovers#", "soils#", "rovers/broken.json#", "soils/gale_steps.json#"})
     EXPECT_TRUE(pointers.contains(expected)) << expected;
 }
 

@@ -124,7 +124,7 @@ TEST(DummyJobKind, OneRowIsServedFromThePostToTheResult) {
   const std::string job = service.done(R"({"mass_kg":500})");
   const HttpResponse result = service.ask("GET", job + "/result");
   EXPECT_EQ(result.status, 200);
-  EXPECT_EQ(result.body, R"({"format":"heavy/1","mass_kg":500,"rovers":["msl-class"]})");
+  EXPECT_EQ(result.body, R"({"format":"heavy/1","mass_kg":500,"rovers":["m2020-class","msl-class"]})");
   EXPECT_NE(service.ask("GET", "/v1/jobs").body.find("\"heavy\""), std::string::npos);
 }
 
@@ -154,7 +154,7 @@ TEST(DummyJobKind, ItsMapAndReportAreServed) {
   const WithDummyKind service(row);
   const std::string job = service.done(R"({"mass_kg":500})");
   EXPECT_EQ(service.ask("GET", job + "/result").body,
-            R"({"format":"heavy/1","mass_kg":500,"rovers":["msl-class"]})");
+            R"({"format":"heavy/1","mass_kg":500,"rovers":["m2020-class","msl-class"]})");
   const HttpResponse map = service.ask("GET", job + "/map");
   EXPECT_EQ(map.status, 200);
   EXPECT_EQ(map.content_type, "image/svg+xml");
@@ -163,7 +163,7 @@ TEST(DummyJobKind, ItsMapAndReportAreServed) {
   for (const std::string& path : {job + "/report", "/v1/heavy-rovers/" + id + "/report"}) {
     const HttpResponse page = service.ask("GET", path);
     EXPECT_EQ(page.status, 200) << path;
-    EXPECT_EQ(page.body, "<!DOCTYPE html>\n<p>1 rovers</p>");
+    EXPECT_EQ(page.body, "<!DOCTYPE html>\n<p>2 rovers</p>");
   }
 }
 
