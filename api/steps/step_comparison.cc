@@ -99,7 +99,8 @@ Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepCompa
   else if (!request.legend.empty() &&
            (request.terrain.empty() || !terrain->second->description().legend(request.legend)))
     faults.push_back({"/legend", fmt::format("the terrain has no legend {}", in_quotes(request.legend))});
-  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, "the comparison can't be made", std::move(faults));
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "the comparison can't be made", std::move(faults));
 
   StepComparison out;
   std::optional<MappedSteps> mapped;
