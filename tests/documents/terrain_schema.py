@@ -82,6 +82,7 @@ def whole(soil):
     document = json.loads((gale / "terrain.json").read_text())
     document["relief"].update(min_rock_m=0.1, max_rock_m=0.5)
     document["soil"] = soil
+    soil["other_legends"] = [{"name": "another", "legend": copy.deepcopy(soil["legend"]), "assumption": "made for this test", "confidence": 0.5}]
     for legend in [soil["legend"]] + [other["legend"] for other in soil["other_legends"]]:
         del legend[2:]
         legend[0]["rock_share"] = 0.1
