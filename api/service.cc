@@ -216,8 +216,8 @@ Result<PlanAnswer> Service::plan_within(const std::optional<dem::Extent>& window
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
   if (!plan->routes.empty())
-    setting->provenance.measured_near = measured_near(*catalogue()->terrains.find(request.terrain)->second,
-                                                      request.drive, plan->routes.front().prediction);
+    setting->provenance.measured_near =
+        measured_near(*setting->site, request.drive, plan->routes.front().prediction);
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
 
@@ -248,8 +248,7 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
                              answer.prediction, answer.dynamic ? &*answer.dynamic : nullptr, progress);
   if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
-  setting->provenance.measured_near =
-      measured_near(*catalogue()->terrains.find(request.terrain)->second, request.drive, answer.prediction);
+  setting->provenance.measured_near = measured_near(*setting->site, request.drive, answer.prediction);
   answer.provenance = std::move(setting->provenance);
   return answer;
 }
@@ -277,8 +276,7 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
       planner::judge_motions(setting->problem, motions, request.manner, *prediction, nullptr, progress);
   if (auto whole = account_for_tiles(*setting->problem.terrain, setting->provenance); !whole)
     return fail(whole.error());
-  setting->provenance.measured_near =
-      measured_near(*catalogue()->terrains.find(request.terrain)->second, request.drive, *prediction);
+  setting->provenance.measured_near = measured_near(*setting->site, request.drive, *prediction);
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
 }
 

@@ -116,6 +116,7 @@ class Service {
   struct Setting {
     planner::PlanProblem problem;
     Provenance provenance;
+    std::shared_ptr<const TerrainSite> site;
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,

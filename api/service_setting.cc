@@ -117,7 +117,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   check.names(terrain, driven_name);
   check.drive(drive);
   if (!check.passed()) return fail(check.error());
-  const TerrainSite& site = *catalogue->terrains.find(terrain)->second;
+  const std::shared_ptr<const TerrainSite> found = catalogue->terrains.find(terrain)->second;
+  const TerrainSite& site = *found;
   sim::RoverModel driven = *catalogue->rovers.find(driven_name)->second;
   const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
   sim::apply_effects(effects, driven);
@@ -129,6 +130,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   if (!ground) return fail(ground.error());
 
   Setting setting;
+  setting.site = found;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
   problem.terrain_is_whole_map = problem.terrain->geometry() == site.info().geometry;

@@ -139,8 +139,8 @@ Result<void> condition_on_way(const PlanProblem& problem, const MeasuredWay& way
   const TerrainGround ground(problem.terrain, problem.soil_map);
   const auto done =
       sim::condition_on_stretch(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs,
-                                stations_along(problem, way.along, way.backwards), way.measured, {},
-                                problem.risk, tries, problem.threads, progress, draws, problem.conditions);
+                                stations_along(problem, way.along, false), way.measured, {}, problem.risk,
+                                tries, problem.threads, progress, draws, problem.conditions);
   if (!done) return fail(done.error());
   return {};
 }

@@ -30,7 +30,6 @@ Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem
 // A measured stretch of a past drive, along places of the map.
 struct MeasuredWay {
   std::vector<Waypoint> along;  // two or more
-  bool backwards = false;
   sim::MeasuredStretch measured;
 };
 

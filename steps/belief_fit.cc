@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/parallel_for.h"
+#include "core/quantile.h"
 #include "core/random.h"
 #include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/stance.h"
@@ -19,7 +20,7 @@ namespace {
 using Ways = std::span<const std::vector<ChainStep>>;
 
 constexpr double kLevelSlipOfPatches = 0.1;  // a soil that slips by more on the level lies in patches
-constexpr double kMostOnUnits = 400, kMostInPatches = 250;
+constexpr std::size_t kMostOnUnits = 400, kMostInPatches = 250;  // candidates of each kind
 constexpr int kRounds = 60, kRoundsOfProfile = 25;
 // Twice the logarithm of a likelihood ratio beyond which a value is outside the 90 % interval [Wilks 1938].
 constexpr double kWilks = 2.706;
@@ -79,8 +80,8 @@ std::vector<Candidate> candidates(const sim::RoverModel& rover, double gravity_m
     if (each.sinkage_m > kMostSinkage * rover.smallest_wheel_radius_m()) continue;
     if (each.level_slip < kLeastLevelSlip || each.level_slip > kMostLevelSlip) continue;
     if (each.level_slip > kLevelSlipOfPatches) {
-      if (static_cast<double>(in_patches.size()) < kMostInPatches) in_patches.push_back(each);
-    } else if (each.slip_at_8_deg < kMostOnSlope && static_cast<double>(on_units.size()) < kMostOnUnits) {
+      if (in_patches.size() < kMostInPatches) in_patches.push_back(each);
+    } else if (each.slip_at_8_deg < kMostOnSlope && on_units.size() < kMostOnUnits) {
       on_units.push_back(each);
     }
   }
@@ -96,11 +97,7 @@ struct FitData {
 
 FitData data_of(const GroundChain& chain, Ways ways) {
   FitData data{{ways.begin(), ways.end()}, {}};
-  for (const std::vector<ChainStep>& way : ways) {
-    Eigen::ArrayXXd& slips = data.slips.emplace_back(chain.soils.size(), way.size());
-    for (std::size_t t = 0; t < way.size(); ++t)
-      slips.col(static_cast<Eigen::Index>(t)) = chain.predicted_slips(way[t]);
-  }
+  for (const std::vector<ChainStep>& way : ways) data.slips.push_back(chain.predicted_slips(way));
   return data;
 }
 
@@ -206,11 +203,11 @@ GroundChain chain_of(const sim::RoverModel& rover, double gravity_m_s2, const st
 
 // A number with the interval of its profile likelihood over a grid of values.
 template <class LogLikelihood>
-FittedNumber profiled(const std::vector<double>& values, const LogLikelihood& log_likelihood) {
+Estimate profiled(const std::vector<double>& values, const LogLikelihood& log_likelihood) {
   std::vector<double> at;
   for (const double value : values) at.push_back(log_likelihood(value));
   const auto best = std::max_element(at.begin(), at.end());
-  FittedNumber out{values[static_cast<std::size_t>(best - at.begin())], values.back(), values.front()};
+  Estimate out{values[static_cast<std::size_t>(best - at.begin())], values.back(), values.front()};
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (2.0 * (*best - at[i]) > kWilks) continue;
     out.low = std::min(out.low, values[i]);
@@ -267,12 +264,9 @@ void add_intervals(const FitParts& parts, const std::vector<Eigen::ArrayXXd>& li
   for (std::size_t k = 0; k < fit.soils.size(); ++k) {
     std::vector<double> values;
     for (const Eigen::ArrayXd& each : resampled) values.push_back(each[static_cast<Eigen::Index>(k)]);
-    std::sort(values.begin(), values.end());
-    const auto at = [&](double p) {
-      return values.empty() ? 0.0
-                            : values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
-    };
-    fit.soils[k].share = {shares[static_cast<Eigen::Index>(k)], at(0.05), at(0.95)};
+    const double share = shares[static_cast<Eigen::Index>(k)];
+    fit.soils[k].share = values.empty() ? Estimate{share, share, share}
+                                        : Estimate{share, quantile(values, 0.05), quantile(values, 0.95)};
   }
 }
 

@@ -11,14 +11,10 @@
 #include "core/result.h"
 #include "sim/rover/rover_model.h"
 #include "sim/soil/soil.h"
+#include "steps/estimate.h"
 #include "steps/ground_chain.h"
 
 namespace slipway::steps {
-
-// A share or a parameter with its 90 % interval.
-struct FittedNumber {
-  double value = 0.0, low = 0.0, high = 0.0;
-};
 
 // A class of ground whose shares are fitted to some of the steps alone, with the belief of all ground as its
 // prior.
@@ -46,7 +42,7 @@ struct FittedSoil {
   std::string name;
   sim::Soil soil;
   bool in_patches = false;
-  FittedNumber share;
+  Estimate share;
   double level_slip = 0.0, slip_at_8_deg = 0.0, level_sinkage_m = 0.0;
   std::array<double, kComparedClimbs_deg.size()> slips{};  // at these
 };
@@ -60,9 +56,9 @@ struct FittedClass {
 struct BeliefFit {
   std::vector<FittedSoil> soils;
   std::vector<FittedClass> classes;  // the first is all ground
-  FittedNumber odometry_offset;      // how much odometry counts too much on ground without slip
-  FittedNumber noise_least, noise_share;
-  FittedNumber patch_m;
+  Estimate odometry_offset;          // how much odometry counts too much on ground without slip
+  Estimate noise_least, noise_share;
+  Estimate patch_m;
   double log_likelihood = 0.0;
   std::size_t steps = 0, ways = 0;
 };

@@ -94,8 +94,21 @@ Eigen::ArrayXd GroundChain::predicted_slips(const ChainStep& step) const {
   return slips;
 }
 
-Eigen::ArrayXd GroundChain::likelihoods(const ChainStep& step) const {
-  return predicted_slips(step).unaryExpr([&](double slip) { return noise.density(step.slip - slip, slip); });
+Eigen::ArrayXXd GroundChain::predicted_slips(std::span<const ChainStep> steps) const {
+  Eigen::ArrayXXd slips(chord_m.size(), static_cast<Eigen::Index>(steps.size()));
+  for (Eigen::Index t = 0; t < slips.cols(); ++t)
+    slips.col(t) = predicted_slips(steps[static_cast<std::size_t>(t)]);
+  return slips;
+}
+
+Eigen::ArrayXXd GroundChain::likelihoods(std::span<const ChainStep> steps,
+                                         const Eigen::ArrayXXd& slips) const {
+  Eigen::ArrayXXd out = slips;
+  for (Eigen::Index t = 0; t < out.cols(); ++t) {
+    const double measured = steps[static_cast<std::size_t>(t)].slip;
+    out.col(t) = slips.col(t).unaryExpr([&](double slip) { return noise.density(measured - slip, slip); });
+  }
+  return out;
 }
 
 ChainPass follow(const GroundChain& chain, std::span<const ChainStep> steps,

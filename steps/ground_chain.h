@@ -63,8 +63,10 @@ struct GroundChain {
   Eigen::ArrayXd entry_weights(const Eigen::ArrayXd& shares) const;
   Eigen::ArrayXd shares_of_entries(const Eigen::ArrayXd& weights) const;
 
-  Eigen::ArrayXd predicted_slips(const ChainStep& step) const;  // by soil
-  Eigen::ArrayXd likelihoods(const ChainStep& step) const;      // of its measured slip, by soil
+  Eigen::ArrayXd predicted_slips(const ChainStep& step) const;              // by soil
+  Eigen::ArrayXXd predicted_slips(std::span<const ChainStep> steps) const;  // soil x step
+  // Of the measured slips where soils have these, soil x step.
+  Eigen::ArrayXXd likelihoods(std::span<const ChainStep> steps, const Eigen::ArrayXXd& slips) const;
 };
 
 // What the steps of one way say.

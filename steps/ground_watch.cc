@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/quantile.h"
+
 namespace slipway::steps {
 namespace {
 
@@ -19,9 +21,7 @@ std::vector<LooseStretch> GroundWatch::next_sol(std::span<const ChainStep> steps
   std::vector<double> usual;
   const auto close = [&] {
     if (open && open->probability >= kSure && open->largest_slip > kLargeSlip) {
-      std::nth_element(usual.begin(), usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2),
-                       usual.end());
-      open->usual_slip = usual[usual.size() / 2];
+      open->usual_slip = median(usual);
       found.push_back(*open);
     }
     open.reset();

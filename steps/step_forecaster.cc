@@ -5,9 +5,14 @@
 namespace slipway::steps {
 namespace {
 
+// Probability that a measured slip is below a limit, by the slip of each soil and step.
+Eigen::ArrayXXd below(const StepNoise& noise, double limit, const Eigen::ArrayXXd& slips) {
+  return slips.unaryExpr([&](double slip) { return noise.below(limit - slip, slip); });
+}
+
 // A mixture's quantile by bisection.
-double quantile(const StepNoise& noise, const Eigen::ArrayXd& probabilities, const Eigen::ArrayXd& slips,
-                double p) {
+double mixture_quantile(const StepNoise& noise, const Eigen::ArrayXd& probabilities,
+                        const Eigen::ArrayXd& slips, double p) {
   constexpr int kHalvings = 40;
   double low = -4.0, high = 2.0;
   for (int k = 0; k < kHalvings; ++k) {
@@ -39,21 +44,18 @@ std::vector<Eigen::ArrayXd> StepForecaster::shares() const {
   return all;
 }
 
-StepForecast StepForecaster::forecast(const Eigen::ArrayXd& probabilities, const ChainStep& step) const {
-  const Eigen::ArrayXd slips = chain_.predicted_slips(step);
+StepForecast StepForecaster::forecast(const Eigen::ArrayXd& probabilities, const Eigen::ArrayXd& slips,
+                                      const Eigen::ArrayXd& likelihoods) const {
   const auto over = [&](double limit) {
-    double sum = 0.0;
-    for (Eigen::Index j = 0; j < slips.size(); ++j)
-      sum += probabilities[j] * (1.0 - chain_.noise.below(limit - slips[j], slips[j]));
-    return sum;
+    return 1.0 - (probabilities * below(chain_.noise, limit, slips)).sum();
   };
   StepForecast out;
-  out.slip_p05 = quantile(chain_.noise, probabilities, slips, 0.05);
-  out.slip_p50 = quantile(chain_.noise, probabilities, slips, 0.5);
-  out.slip_p95 = quantile(chain_.noise, probabilities, slips, 0.95);
+  out.slip_p05 = mixture_quantile(chain_.noise, probabilities, slips, 0.05);
+  out.slip_p50 = mixture_quantile(chain_.noise, probabilities, slips, 0.5);
+  out.slip_p95 = mixture_quantile(chain_.noise, probabilities, slips, 0.95);
   out.over_0_2 = over(0.2);
   out.over_0_4 = over(0.4);
-  out.log_density = std::log((probabilities * chain_.likelihoods(step)).sum());
+  out.log_density = std::log((probabilities * likelihoods).sum());
   return out;
 }
 
@@ -70,13 +72,10 @@ void StepForecaster::remember(const ChainPass& pass) {
 }
 
 ChainPass StepForecaster::learn_sol(std::span<const ChainStep> steps) {
-  const auto soils = static_cast<Eigen::Index>(chain_.soils.size());
-  Eigen::ArrayXXd likelihoods(soils, static_cast<Eigen::Index>(steps.size()));
-  for (std::size_t t = 0; t < steps.size(); ++t)
-    likelihoods.col(static_cast<Eigen::Index>(t)) = chain_.likelihoods(steps[t]);
   const std::vector<Eigen::ArrayXd> now = shares();
   const std::size_t ground = steps.empty() ? 0 : steps.front().ground;
-  ChainPass pass = follow(chain_, steps, likelihoods, start(ground, now), now);
+  ChainPass pass = follow(chain_, steps, chain_.likelihoods(steps, chain_.predicted_slips(steps)),
+                          start(ground, now), now);
   if (!steps.empty()) remember(pass);
   return pass;
 }
@@ -86,27 +85,24 @@ SolForecast StepForecaster::next_sol(std::span<const ChainStep> steps) {
   if (steps.empty()) return out;
   const std::vector<Eigen::ArrayXd> now = shares();
   const Eigen::ArrayXd first = start(steps.front().ground, now);
-  const auto soils = static_cast<Eigen::Index>(chain_.soils.size());
-  const auto count = static_cast<Eigen::Index>(steps.size());
-  Eigen::ArrayXXd likelihoods(soils, count), below_0_2(soils, count), below_0_4(soils, count);
-  for (Eigen::Index t = 0; t < count; ++t) {
-    const ChainStep& step = steps[static_cast<std::size_t>(t)];
-    const Eigen::ArrayXd slips = chain_.predicted_slips(step);
-    likelihoods.col(t) = chain_.likelihoods(step);
-    for (Eigen::Index j = 0; j < soils; ++j) {
-      below_0_2(j, t) = chain_.noise.below(0.2 - slips[j], slips[j]);
-      below_0_4(j, t) = chain_.noise.below(0.4 - slips[j], slips[j]);
-    }
-  }
-  const ChainPass pass = follow(chain_, steps, likelihoods, first, now);
+  const Eigen::ArrayXXd slips = chain_.predicted_slips(steps);
+  const Eigen::ArrayXXd likelihoods = chain_.likelihoods(steps, slips);
+  const auto after = [&](const Eigen::ArrayXXd& evidence) {
+    return follow(chain_, steps, evidence, first, now);
+  };
+  const ChainPass pass = after(likelihoods);
   // Without this sol's steps: as with measurements that every soil makes equally likely.
-  const ChainPass unseen = follow(chain_, steps, Eigen::ArrayXXd::Ones(soils, count), first, now);
-  const ChainPass& known = learning_ == StepLearning::kDrive ? pass : unseen;
-  for (Eigen::Index t = 0; t < count; ++t)
-    out.steps.push_back(forecast(known.before.col(t), steps[static_cast<std::size_t>(t)]));
+  const Eigen::ArrayXXd before = learning_ == StepLearning::kDrive
+                                     ? pass.before
+                                     : after(Eigen::ArrayXXd::Ones(slips.rows(), slips.cols())).before;
+  for (Eigen::Index t = 0; t < slips.cols(); ++t)
+    out.steps.push_back(forecast(before.col(t), slips.col(t), likelihoods.col(t)));
   // The recursions' evidence of "no step is above" is its probability.
-  out.any_over_0_2 = 1.0 - std::exp(follow(chain_, steps, below_0_2, first, now).log_likelihood);
-  out.any_over_0_4 = 1.0 - std::exp(follow(chain_, steps, below_0_4, first, now).log_likelihood);
+  const auto any_over = [&](double limit) {
+    return 1.0 - std::exp(after(below(chain_.noise, limit, slips)).log_likelihood);
+  };
+  out.any_over_0_2 = any_over(0.2);
+  out.any_over_0_4 = any_over(0.4);
   if (learning_ != StepLearning::kNone) remember(pass);
   return out;
 }

@@ -52,7 +52,9 @@ class StepForecaster {
   Eigen::ArrayXd start(std::size_t ground, const std::vector<Eigen::ArrayXd>& now) const;
   void remember(const ChainPass& pass);
   std::vector<Eigen::ArrayXd> shares() const;  // by ground
-  StepForecast forecast(const Eigen::ArrayXd& probabilities, const ChainStep& step) const;
+  // Of a step with these probabilities, slips and likelihoods, by soil.
+  StepForecast forecast(const Eigen::ArrayXd& probabilities, const Eigen::ArrayXd& slips,
+                        const Eigen::ArrayXd& likelihoods) const;
 
   const GroundChain& chain_;
   StepLearning learning_;

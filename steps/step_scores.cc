@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 #include "core/random.h"
 
 namespace slipway::steps {
@@ -18,13 +19,6 @@ struct Chance {
   double probability;
   bool above;
 };
-
-double median(std::vector<double> of) {
-  if (of.empty()) return 0.0;
-  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
-  std::nth_element(of.begin(), middle, of.end());
-  return *middle;
-}
 
 // The share of pairs of one case above and one not above that are in the right order; ties count half.
 double area_under_curve(std::vector<Chance> cases) {
@@ -84,12 +78,8 @@ struct Errors {
   }
 };
 
-ResampledFigure with_interval(double value, std::vector<double> resampled) {
-  std::sort(resampled.begin(), resampled.end());
-  const auto at = [&](double p) {
-    return resampled[static_cast<std::size_t>(p * static_cast<double>(resampled.size() - 1))];
-  };
-  return {value, at(0.05), at(0.95)};
+Estimate with_interval(double value, const std::vector<double>& resampled) {
+  return {value, quantile(resampled, 0.05), quantile(resampled, 0.95)};
 }
 
 void add_errors(std::span<const ScoredSol> sols, StepScores& out) {
@@ -109,9 +99,9 @@ void add_errors(std::span<const ScoredSol> sols, StepScores& out) {
     in_band.push_back(drawn.share_in_band());
   }
   out.steps = all.absolute.size();
-  out.median_error = with_interval(median(all.absolute), std::move(medians));
-  out.rms_error = with_interval(all.rms(), std::move(rms));
-  out.in_band = with_interval(all.share_in_band(), std::move(in_band));
+  out.median_error = with_interval(median(all.absolute), medians);
+  out.rms_error = with_interval(all.rms(), rms);
+  out.in_band = with_interval(all.share_in_band(), in_band);
 }
 
 void add_bins(std::span<const ScoredSol> sols, StepScores& out) {

@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "steps/estimate.h"
 #include "steps/step_forecaster.h"
 
 namespace slipway::steps {
-
-// A figure with the 90 % interval that it has over sols drawn with replacement [Efron & Tibshirani 1993],
-// since the steps of a sol are not independent of each other.
-struct ResampledFigure {
-  double value = 0.0, low = 0.0, high = 0.0;
-};
 
 // How well probabilities foretold whether a slip is above a limit.
 struct ProbabilityScore {
@@ -38,7 +33,8 @@ struct BandScore {
 
 struct StepScores {
   std::size_t steps = 0, sols = 0;
-  ResampledFigure median_error, rms_error, in_band;  // of slip_p50; of the band from 5 to 95 %
+  // Over sols drawn with replacement [Efron & Tibshirani 1993], since the steps of a sol are not independent.
+  Estimate median_error, rms_error, in_band;  // of slip_p50; of the band from 5 to 95 %
   double mean_log_density = 0.0;
   ProbabilityScore step_over_0_2, step_over_0_4, sol_over_0_2, sol_over_0_4;
   std::vector<BandScore> by_pitch, by_sol;

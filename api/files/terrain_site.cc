@@ -10,10 +10,10 @@
 #include <system_error>
 #include <utility>
 
+#include "api/files/slip_steps_file.h"
 #include "api/files/terrain_file.h"
 #include "api/json/faults.h"
 #include "core/sha256.h"
-#include "steps/slip_steps_csv.h"
 
 namespace slipway::api {
 namespace {
@@ -131,10 +131,8 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
       }
     }
     if (site->description_.steps_file) {
-      const std::string& file = *site->description_.steps_file;
-      const auto table = read_data_file(folder / file);
-      auto steps = table ? steps::read_slip_steps(*table, file)
-                         : Result<std::vector<steps::SlipStep>>(fail(table.error()));
+      auto steps =
+          read_slip_steps_file(folder / *site->description_.steps_file, *site->description_.steps_file);
       if (steps)
         site->steps_ = std::move(*steps);
       else

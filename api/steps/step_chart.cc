@@ -1,24 +1,14 @@
 #include "api/steps/step_chart.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <span>
 
 #include "api/chart/chart.h"
 #include "core/angle.h"
+#include "core/quantile.h"
 
 namespace slipway::api {
-namespace {
-
-double median(std::vector<double> of) {
-  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
-  std::nth_element(of.begin(), middle, of.end());
-  return *middle;
-}
-
-}  // namespace
-
 std::string step_chart(const StepComparison& comparison) {
   struct Forecasts {
     std::vector<double> p05, p50, p95;

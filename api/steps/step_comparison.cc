@@ -79,6 +79,14 @@ class MappedSteps {
 
 }  // namespace
 
+Result<std::shared_ptr<const sim::RoverModel>> rover_that_made_steps(const Catalogue& catalogue,
+                                                                     const std::string& name) {
+  const auto rover = catalogue.rovers.find(name);
+  if (rover != catalogue.rovers.end()) return rover->second;
+  return fail(ErrorCode::kInvalidRequest, "the rover that made the steps is not known",
+              {{"/rover", unknown_rover(catalogue, name)}});
+}
+
 std::vector<std::vector<steps::ChainStep>> ways_of(std::span<const steps::SlipStep> steps) {
   std::vector<std::vector<steps::ChainStep>> ways;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -91,8 +99,8 @@ std::vector<std::vector<steps::ChainStep>> ways_of(std::span<const steps::SlipSt
 Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepComparisonRequest& request,
                                      std::span<const steps::SlipStep> steps) {
   std::vector<Fault> faults;
-  const auto rover = catalogue.rovers.find(request.rover);
-  if (rover == catalogue.rovers.end()) faults.push_back({"/rover", unknown_rover(catalogue, request.rover)});
+  const auto rover = rover_that_made_steps(catalogue, request.rover);
+  if (!rover) faults = rover.error().faults;
   const auto terrain = catalogue.terrains.find(request.terrain);
   if (!request.terrain.empty() && terrain == catalogue.terrains.end())
     faults.push_back({"/terrain", unknown_terrain(catalogue, request.terrain)});
@@ -129,7 +137,7 @@ Result<StepComparison> compare_steps(const Catalogue& catalogue, const StepCompa
     out.places.push_back(StepComparison::Place{out.sols.size() - 1, out.sols.back().steps.size()});
     out.sols.back().steps.push_back(*here);
   }
-  const steps::GroundChain chain(*rover->second, gravity_m_s2, beliefs);
+  const steps::GroundChain chain(**rover, gravity_m_s2, beliefs);
   steps::StepForecaster forecaster(chain, request.learning);
   for (steps::ScoredSol& sol : out.sols) sol.forecast = forecaster.next_sol(sol.steps);
   out.scores = steps::score(out.sols);

@@ -12,12 +12,14 @@
 
 namespace slipway::api {
 
+inline constexpr double kMarsGravity_m_s2 = 3.71;
+
 struct StepComparisonRequest {
   std::string rover = "msl-class";
   std::string terrain;  // slope and soil are the map's; empty: those of the steps, on unknown ground
   std::string legend;   // of the terrain; empty: its first
   steps::StepLearning learning = steps::StepLearning::kNone;
-  double gravity_m_s2 = 3.71;  // without a terrain
+  double gravity_m_s2 = kMarsGravity_m_s2;  // without a terrain
 };
 
 struct StepComparison {
@@ -32,6 +34,10 @@ struct StepComparison {
   std::size_t without_pitch = 0;     // steps without any slope, taken as level
   std::size_t off_map = 0;           // steps that are not on the terrain, left out
 };
+
+// Errors: invalid_request where the catalogue has no such rover.
+Result<std::shared_ptr<const sim::RoverModel>> rover_that_made_steps(const Catalogue& catalogue,
+                                                                     const std::string& name);
 
 // The steps of one sol after another as the chain reads them. Without a terrain their slope and roll are
 // their own; where none is known, level.

@@ -10,7 +10,7 @@ namespace {
 
 using json::Writer;
 
-void write(Writer& w, std::string_view key, const steps::ResampledFigure& figure) {
+void write(Writer& w, std::string_view key, const steps::Estimate& figure) {
   w.key(key).begin_object().significant("value", figure.value);
   w.significant("low", figure.low).significant("high", figure.high).end_object();
 }
@@ -60,12 +60,12 @@ void write_step(Writer& w, const steps::SlipStep& step, const StepComparison& co
   w.end_object();
 }
 
-std::string with_interval(const steps::ResampledFigure& figure, double factor, int digits) {
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * figure.value, digits, factor * figure.low,
-                     digits, factor * figure.high, digits);
-}
-
 }  // namespace
+
+std::string estimate_words(const steps::Estimate& estimate, double factor, int digits) {
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * estimate.value, digits, factor * estimate.low,
+                     digits, factor * estimate.high, digits);
+}
 
 std::string_view name_of(steps::StepLearning learning) {
   switch (learning) {
@@ -118,8 +118,8 @@ std::string step_comparison_text(const StepComparisonRequest& request, const Ste
       request.learning == steps::StepLearning::kNone   ? "nothing"
       : request.learning == steps::StepLearning::kSols ? "the sols before each"
                                                        : "the sols and the steps before each",
-      with_interval(s.median_error, 1.0, 4), with_interval(s.rms_error, 1.0, 4),
-      with_interval(s.in_band, 100.0, 1));
+      estimate_words(s.median_error, 1.0, 4), estimate_words(s.rms_error, 1.0, 4),
+      estimate_words(s.in_band, 100.0, 1));
   const auto add = [&](const char* what, const steps::ProbabilityScore& score) {
     out += fmt::format("{}: {} of {}, {:.1f} expected, AUC {:.2f}\n", what, score.above, score.cases,
                        score.expected, score.auc);

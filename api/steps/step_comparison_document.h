@@ -14,6 +14,9 @@ std::string step_comparison_json(const StepComparisonRequest& request, std::span
 // The same summary for people.
 std::string step_comparison_text(const StepComparisonRequest& request, const StepComparison& comparison);
 
+// "0.0179 (0.0167 to 0.0191)": an estimate times a factor, with so many digits.
+std::string estimate_words(const steps::Estimate& estimate, double factor, int digits);
+
 std::string_view name_of(steps::StepLearning learning);
 
 }  // namespace slipway::api

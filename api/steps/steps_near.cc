@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/quantile.h"
+
 namespace slipway::api {
 
 std::optional<StepsNear> steps_near(std::span<const steps::SlipStep> steps, std::optional<int> as_of_sol,
@@ -19,10 +21,9 @@ std::optional<StepsNear> steps_near(std::span<const steps::SlipStep> steps, std:
     near.way_m += step.odometry_m;
   }
   if (slips.empty()) return std::nullopt;
-  std::sort(slips.begin(), slips.end());
   near.steps = slips.size();
-  near.median_slip = slips[slips.size() / 2];
-  near.largest_slip = slips.back();
+  near.median_slip = median(slips);
+  near.largest_slip = *std::max_element(slips.begin(), slips.end());
   return near;
 }
 

@@ -21,7 +21,7 @@ int steps_score(const StepsScoreCommand& options);
 
 struct StepsLearnCommand {
   std::vector<std::string> tables;
-  std::string data, rover = "msl-class", out, report;
+  std::string data, rover = "msl-class", out;
   // "NAME=978,538:20-36" (sols, or steps of a sol counted from 1) or "NAME=unit:SM,SMR".
   std::vector<std::string> classes;
 };

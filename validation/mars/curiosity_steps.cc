@@ -3,10 +3,10 @@
 #include <array>
 
 #include "api/files/catalogue.h"
+#include "api/files/slip_steps_file.h"
 #include "api/steps/step_chart.h"
 #include "api/steps/step_comparison.h"
 #include "api/steps/step_comparison_document.h"
-#include "steps/slip_steps_csv.h"
 #include "validation/mars/comparisons.h"
 
 namespace slipway::validation {
@@ -19,20 +19,12 @@ struct Table {
   steps::StepLearning most;  // up to which learning is compared
 };
 
-Result<std::vector<steps::SlipStep>> read_table(const std::filesystem::path& data, const char* file) {
-  const auto bytes = api::read_data_file(data / file);
-  if (!bytes) return fail(bytes.error());
-  return steps::read_slip_steps(*bytes, file);
-}
-
 void add_row(const Table& table, const api::StepComparison& comparison, Report& report) {
   const steps::StepScores& s = comparison.scores;
   const std::string learnt(api::name_of(table.request.learning));
   report.rows.push_back({table.what, learnt, fmt::format("{}", s.steps), fmt::format("{}", s.sols),
-                         fmt::format("{:.4f} ({:.4f} to {:.4f})", s.median_error.value, s.median_error.low,
-                                     s.median_error.high),
-                         fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * s.in_band.value,
-                                     100.0 * s.in_band.low, 100.0 * s.in_band.high),
+                         api::estimate_words(s.median_error, 1.0, 4),
+                         api::estimate_words(s.in_band, 100.0, 1),
                          fmt::format("{:.1f} / {}", s.step_over_0_2.expected, s.step_over_0_2.above),
                          fmt::format("{:.1f} / {}", s.step_over_0_4.expected, s.step_over_0_4.above),
                          s.step_over_0_4.above > 0 ? fmt::format("{:.2f}", s.step_over_0_4.auc) : "-"});
@@ -70,7 +62,7 @@ Result<Report> curiosity_steps(const std::filesystem::path& data) {
                     "above 0.4, expected / measured",
                     "AUC of 0.4"};
   for (const Table& table : tables) {
-    const auto steps = read_table(data, table.file);
+    const auto steps = api::read_slip_steps_file(data / table.file, table.file);
     if (!steps) return fail(steps.error());
     for (const auto learning :
          {steps::StepLearning::kNone, steps::StepLearning::kSols, steps::StepLearning::kDrive}) {

@@ -3,30 +3,21 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <map>
 #include <optional>
 
+#include "api/files/slip_steps_file.h"
 #include "api/files/soil_file.h"
-#include "api/files/terrain_site.h"
 #include "api/json/writer.h"
 #include "api/steps/step_chart.h"
 #include "api/steps/step_comparison.h"
 #include "api/steps/step_comparison_document.h"
 #include "core/fault_words.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/exit_status.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "steps/belief_fit.h"
-#include "steps/slip_steps_csv.h"
 
 namespace slipway::server {
 namespace {
-
-Result<std::vector<steps::SlipStep>> read_table(const std::string& path) {
-  const auto bytes = api::read_data_file(path);
-  if (!bytes) return fail(bytes.error());
-  return steps::read_slip_steps(*bytes, path);
-}
 
 steps::StepLearning learning_of(const std::string& name) {
   if (name == "sols") return steps::StepLearning::kSols;
@@ -114,11 +105,6 @@ Result<std::vector<steps::GroundClassSteps>> classes_of(const StepsLearnCommand&
   return classes;
 }
 
-std::string words(const steps::FittedNumber& number, double factor, int digits) {
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * number.value, digits, factor * number.low,
-                     digits, factor * number.high, digits);
-}
-
 std::string fit_words(const steps::BeliefFit& fit) {
   double loose = 0.0;
   for (const steps::FittedSoil& soil : fit.soils) loose += soil.in_patches ? soil.share.value : 0.0;
@@ -130,11 +116,13 @@ std::string fit_words(const steps::BeliefFit& fit) {
       "patches of loose ground, m      {}\n"
       "share of loose ground, %        {:.2f}\n\n"
       "soil              share, %              level slip  at 8 deg  sinkage, mm\n",
-      fit.steps, fit.ways, words(fit.odometry_offset, 100.0, 2), words(fit.noise_least, 1.0, 3),
-      words(fit.noise_share, 1.0, 2), words(fit.patch_m, 1.0, 0), 100.0 * loose);
+      fit.steps, fit.ways, api::estimate_words(fit.odometry_offset, 100.0, 2),
+      api::estimate_words(fit.noise_least, 1.0, 3), api::estimate_words(fit.noise_share, 1.0, 2),
+      api::estimate_words(fit.patch_m, 1.0, 0), 100.0 * loose);
   for (const steps::FittedSoil& soil : fit.soils)
-    out += fmt::format("{:<17} {:<21} {:>10.3f} {:>9.3f} {:>12.0f}\n", soil.name, words(soil.share, 100.0, 2),
-                       soil.level_slip, soil.slip_at_8_deg, 1000.0 * soil.level_sinkage_m);
+    out += fmt::format("{:<17} {:<21} {:>10.3f} {:>9.3f} {:>12.0f}\n", soil.name,
+                       api::estimate_words(soil.share, 100.0, 2), soil.level_slip, soil.slip_at_8_deg,
+                       1000.0 * soil.level_sinkage_m);
   for (std::size_t c = 1; c < fit.classes.size(); ++c) {
     double share = 0.0;
     for (std::size_t k = 0; k < fit.soils.size(); ++k)
@@ -156,7 +144,7 @@ std::string soils_file(const std::vector<sim::SoilDistribution>& soils, const si
 }  // namespace
 
 int steps_score(const StepsScoreCommand& options) {
-  const auto table = read_table(options.table);
+  const auto table = api::read_slip_steps_file(options.table, options.table);
   if (!table) return refuse_unreadable(table.error());
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse(catalogue.error());
@@ -175,7 +163,7 @@ int steps_score(const StepsScoreCommand& options) {
 int steps_learn(const StepsLearnCommand& options) {
   std::vector<steps::SlipStep> table;
   for (const std::string& path : options.tables) {
-    const auto steps = read_table(path);
+    const auto steps = api::read_slip_steps_file(path, path);
     if (!steps) return refuse_unreadable(steps.error());
     table.insert(table.end(), steps->begin(), steps->end());
   }
@@ -183,16 +171,12 @@ int steps_learn(const StepsLearnCommand& options) {
   if (!classes) return refuse_unreadable(classes.error());
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse(catalogue.error());
-  const auto rover = catalogue->rovers.find(options.rover);
-  if (rover == catalogue->rovers.end())
-    return refuse_unreadable({ErrorCode::kInvalidRequest,
-                              "nothing can be learned",
-                              {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
-  constexpr double kMars_m_s2 = 3.71;
+  const auto rover = api::rover_that_made_steps(*catalogue, options.rover);
+  if (!rover) return refuse_unreadable(rover.error());
   const steps::BeliefFitOptions fit_options;
   TerminalProgress progress;
-  const auto fit =
-      steps::fit_belief(*rover->second, kMars_m_s2, api::ways_of(table), *classes, fit_options, progress);
+  const auto fit = steps::fit_belief(**rover, api::kMarsGravity_m_s2, api::ways_of(table), *classes,
+                                     fit_options, progress);
   if (!fit) return refuse(fit.error());
   const std::string source =
       fmt::format("slipway steps learn: {} measured steps of {} sols, {}; see docs/results/mars.md",

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include "api/files/terrain_site.h"
+#include "api/files/slip_steps_file.h"
 #include "api/json/writer.h"
 #include "api/steps/step_comparison.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
 #include "server/cli/watch_command.h"
 #include "steps/ground_watch.h"
-#include "steps/slip_steps_csv.h"
 
 namespace slipway::server {
 namespace {
@@ -59,21 +58,15 @@ std::string words(const std::vector<steps::SlipStep>& table, const std::vector<A
 }  // namespace
 
 int watch_steps(const WatchCommand& options) {
-  const auto bytes = api::read_data_file(options.campaign);
-  if (!bytes) return refuse_unreadable(bytes.error());
-  const auto table = steps::read_slip_steps(*bytes, options.campaign);
+  const auto table = api::read_slip_steps_file(options.campaign, options.campaign);
   if (!table) return refuse_unreadable(table.error());
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto rover = catalogue->rovers.find(options.rover);
-  if (rover == catalogue->rovers.end())
-    return refuse_unreadable({ErrorCode::kInvalidRequest,
-                              "nothing can be watched",
-                              {{"/rover", api::unknown_rover(*catalogue, options.rover)}}});
-  constexpr double kMars_m_s2 = 3.71;
+  const auto rover = api::rover_that_made_steps(*catalogue, options.rover);
+  if (!rover) return refuse_unreadable(rover.error());
   const sim::SoilDistribution* const belief =
-      &catalogue->soils.find(api::unknown_ground_at(kMars_m_s2))->second;
-  const steps::GroundChain chain(*rover->second, kMars_m_s2, std::span(&belief, 1));
+      &catalogue->soils.find(api::unknown_ground_at(api::kMarsGravity_m_s2))->second;
+  const steps::GroundChain chain(**rover, api::kMarsGravity_m_s2, std::span(&belief, 1));
   steps::GroundWatch watch(chain);
   std::vector<Alarm> alarms;
   std::size_t row = 0;
