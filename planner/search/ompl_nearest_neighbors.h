@@ -63,7 +63,14 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
 
  private:
   static constexpr double kLeastBucket_m = 5.0;
-  using Near = std::pair<double, T>;
+  struct Near {
+    double away;
+    std::size_t order;  // in which it was met: by rings, and in them by adding
+    T item;
+    bool operator<(const Near& other) const {
+      return away != other.away ? away < other.away : order < other.order;
+    }
+  };
 
   int column(const T& item) const { return index(state_of(item)->template as<State>()->getX()); }
   int row(const T& item) const { return index(state_of(item)->template as<State>()->getY()); }
@@ -89,24 +96,23 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
         for (int dr = -ring; dr <= ring; dr += stride) take(item, c + dc, r + dr, radius, near);
       }
     }
-    // Stable: equals stay in the order of the rings and of adding.
-    std::stable_sort(near.begin(), near.end(),
-                     [](const Near& a, const Near& b) { return a.first < b.first; });
+    const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(k, near.size()));
+    std::partial_sort(near.begin(), last, near.end());
     found.clear();
-    for (std::size_t i = 0; i < std::min(k, near.size()); ++i) found.push_back(near[i].second);
+    for (auto one = near.begin(); one != last; ++one) found.push_back(one->item);
   }
   void take(const T& item, int c, int r, double radius, std::vector<Near>& near) const {
     const auto bucket = buckets_.find(key(c, r));
     if (bucket == buckets_.end()) return;
     for (const T& other : bucket->second) {
       const double away = this->distFun_(other, item);
-      if (away <= radius) near.emplace_back(away, other);
+      if (away <= radius) near.push_back({away, near.size(), other});
     }
   }
   static double k_th(const std::vector<Near>& near, std::size_t k) {
     std::vector<double> away;
     away.reserve(near.size());
-    for (const Near& one : near) away.push_back(one.first);
+    for (const Near& one : near) away.push_back(one.away);
     if (k == 0) return 0.0;
     std::nth_element(away.begin(), away.begin() + static_cast<std::ptrdiff_t>(k - 1), away.end());
     return away[k - 1];
