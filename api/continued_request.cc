@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/documents/watch_request.h"
+#include "api/documents/diagnosis/watch_request.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"

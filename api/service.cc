@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "api/documents/check_request.h"
-#include "api/documents/diagnosis_request.h"
+#include "api/documents/diagnosis/diagnosis_request.h"
+#include "api/documents/diagnosis/watch_request.h"
 #include "api/documents/drive_assumptions.h"
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
-#include "api/documents/soil_estimate_request.h"
-#include "api/documents/watch_request.h"
+#include "api/documents/soil/soil_estimate_request.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/model_folder.h"
 #include "api/json/faults.h"

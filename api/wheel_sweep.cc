@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "api/documents/wheel_sweep_request.h"
+#include "api/documents/soil/wheel_sweep_request.h"
 #include "api/json/faults.h"
 #include "api/rover_on_slope.h"
 #include "sim/effects/effect_catalogue.h"

@@ -1,12 +1,21 @@
 # cmake --install: the program, its data, and the libraries with their headers as the CMake package "slipway".
-# Components: tools (the program and its data), development (the libraries), service (see packages.cmake).
+# Components: tools (the program and its data), research (slipway-study and the data that it compares with), development (the
+# libraries), service (see packages.cmake).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slipway)
-set(rooms core dem sim steps planner gap campaign benchmark api)
+set(rooms core dem sim steps planner gap campaign api)
 
 install(TARGETS slipway RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
-install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT tools)
+# The practice campaigns but two, and the scores of sealed campaigns, are the study's.
+set(data_of_study gap-practice/p0[234678] "validation/(sealed_.*|worlds_scores.csv)")
+list(JOIN data_of_study "|" data_of_study)
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT tools
+  REGEX "/data/(${data_of_study})(/|$)" EXCLUDE)
+if(SLIPWAY_BUILD_RESEARCH)
+  install(TARGETS slipway-study RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT research)
+  install(DIRECTORY data/gap-practice data/validation DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT research)
+endif()
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
 

@@ -19,10 +19,10 @@
 #include "api/service.h"
 #include "core/file_descriptor.h"
 #include "core/process_limits.h"
-#include "server/cli/command_parts.h"
-#include "server/cli/exit_status.h"
+#include "server/cli/commands/serve_command.h"
+#include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"
-#include "server/cli/serve_command.h"
+#include "server/cli/inquiry/exit_status.h"
 #include "server/signals.h"
 
 namespace slipway::server {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "api/documents/answer_vectors.h"
-#include "dem/contours.h"
+#include "api/export/answer_vectors.h"
+#include "dem/write/contours.h"
 
 namespace slipway::api {
 

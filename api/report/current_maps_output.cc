@@ -6,7 +6,7 @@
 #include <array>
 
 #include "api/chart/chart.h"
-#include "api/documents/wheel_sweep_answer.h"
+#include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/report/sweep_chart.h"
 #include "core/angle.h"
 #include "sim/wheel/entry_angle.h"

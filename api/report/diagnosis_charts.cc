@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/report/gap_map.h"
 
 namespace slipway::api {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/files/corrected_model.h"
 #include "api/report/diagnosis_sections.h"
 #include "api/report/gap_report.h"

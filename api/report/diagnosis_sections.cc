@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/report/report_words.h"
 #include "core/utc.h"
 #include "gap/diagnosis/model/nuisance_catalogue.h"

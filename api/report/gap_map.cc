@@ -11,7 +11,7 @@
 
 #include "api/chart/base64.h"
 #include "api/chart/chart.h"
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 namespace slipway::api {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {

@@ -14,7 +14,7 @@
 #include "api/json/parse.h"
 #include "api/report/thinned_ground.h"
 #include "core/angle.h"
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 namespace slipway::api {
 namespace {

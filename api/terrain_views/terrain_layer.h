@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "api/files/terrain_description.h"
-#include "dem/rgba_image.h"
+#include "dem/write/rgba_image.h"
 
 // What pictures of a terrain show, in which colours.
 namespace slipway::api {

@@ -9,7 +9,7 @@
 
 #include "core/angle.h"
 #include "dem/gradient_field.h"
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 namespace slipway::api {
 namespace {

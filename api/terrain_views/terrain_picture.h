@@ -6,7 +6,7 @@
 #include "api/terrain_views/terrain_layer.h"
 #include "core/result.h"
 #include "dem/grid_geometry.h"
-#include "dem/rgba_image.h"
+#include "dem/write/rgba_image.h"
 
 namespace slipway::api {
 

@@ -7,9 +7,9 @@
 
 #include "api/chart/drive_history.h"
 #include "api/documents/catalogue_documents.h"
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/documents/plan_answer.h"
-#include "api/documents/wheel_sweep_answer.h"
+#include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
 #include "api/jobs/memory_job_store.h"
 #include "api/json/parse.h"

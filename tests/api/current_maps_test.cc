@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "api/documents/current_documents.h"
+#include "api/documents/soil/current_documents.h"
 #include "api/json/parse.h"
 #include "api/report/current_maps_output.h"
 #include "api/requests/current_inversion.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/json/parse.h"
 #include "made_diagnosis.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "api/documents/catalogue_documents.h"
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/files/corrected_model.h"
 #include "api/files/rover_file.h"
 #include "api/files/soil_file.h"

@@ -12,8 +12,8 @@
 #include "api/json/writer.h"
 #include "server/http/http_client.h"
 #include "server/http/http_server.h"
-#include "server/responses.h"
-#include "server/routes.h"
+#include "server/routes/responses.h"
+#include "server/routes/routes.h"
 #include "small_world.h"
 
 namespace slipway::server {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "api/documents/diagnosis_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/documents/prediction_answer.h"
 #include "api/files/corrected_model.h"
 #include "api/files/model_folder.h"

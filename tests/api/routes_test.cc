@@ -1,4 +1,4 @@
-#include "server/routes.h"
+#include "server/routes/routes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include "api/json/parse.h"
 #include "api/openapi.h"
 #include "core/version.h"
-#include "server/operator_routes.h"
-#include "server/responses.h"
+#include "server/routes/operator_routes.h"
+#include "server/routes/responses.h"
 #include "small_world.h"
 
 namespace slipway::server {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "api/documents/soil_estimate_document.h"
+#include "api/documents/soil/soil_estimate_document.h"
 #include "api/files/soil_file.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/report/soil_estimate_chart.h"

@@ -8,7 +8,7 @@
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/prediction_request.h"
-#include "api/documents/wheel_sweep_answer.h"
+#include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/files/soil_file.h"
 #include "api/json/parse.h"
 #include "api/service.h"

@@ -7,8 +7,8 @@
 #include "api/terrain_views/terrain_document.h"
 #include "api/terrain_views/terrain_picture.h"
 #include "api/terrain_views/terrain_profile.h"
-#include "server/responses.h"
-#include "server/routes.h"
+#include "server/routes/responses.h"
+#include "server/routes/routes.h"
 #include "small_world.h"
 
 // What is drawn and told of one terrain, as functions and over the routes.

@@ -1,5 +1,5 @@
 // Requests that append drives to a watch: what is read, what is recorded.
-#include "api/documents/watch_request.h"
+#include "api/documents/diagnosis/watch_request.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "api/documents/wheel_sweep_answer.h"
-#include "api/documents/wheel_sweep_request.h"
+#include "api/documents/soil/wheel_sweep_answer.h"
+#include "api/documents/soil/wheel_sweep_request.h"
 #include "api/json/parse.h"
 #include "api/report/sweep_chart.h"
 #include "sim/rover/stance.h"

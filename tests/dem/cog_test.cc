@@ -1,4 +1,4 @@
-#include "dem/cog.h"
+#include "dem/write/cog.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "dem/contours.h"
 #include "dem/synthetic_terrain.h"
 #include "dem/tile_file.h"
+#include "dem/write/contours.h"
 #include "raster_fixture.h"
 
 namespace slipway::dem {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 namespace slipway::dem {
 namespace {

@@ -1,4 +1,4 @@
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "dem/rgba_image.h"
 #include "dem/synthetic_terrain.h"
+#include "dem/write/rgba_image.h"
 #include "raster_fixture.h"
 
 namespace slipway::dem {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "dem/hillshade.h"
+#include "dem/write/hillshade.h"
 
 namespace slipway::dem::test {
 namespace {

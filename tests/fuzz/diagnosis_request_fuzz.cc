@@ -1,6 +1,6 @@
 // The reader of requests for a diagnosis.
 
-#include "api/documents/diagnosis_request.h"
+#include "api/documents/diagnosis/diagnosis_request.h"
 #include "fuzz_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

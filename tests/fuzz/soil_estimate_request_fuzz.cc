@@ -1,6 +1,6 @@
 // The reader of requests for an estimate of a soil from tests.
 
-#include "api/documents/soil_estimate_request.h"
+#include "api/documents/soil/soil_estimate_request.h"
 #include "fuzz_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

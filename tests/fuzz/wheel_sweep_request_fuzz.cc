@@ -1,6 +1,6 @@
 // The reader of requests for sweeps of one wheel.
 
-#include "api/documents/wheel_sweep_request.h"
+#include "api/documents/soil/wheel_sweep_request.h"
 #include "fuzz_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,4 +3,4 @@
 set -eu
 formatter="$1"
 cd "$2"
-find core dem sim steps planner campaign benchmark gap api validation server tests bench -name '*.cc' -o -name '*.h' | sort | xargs "$formatter" --dry-run --Werror
+find core dem sim steps planner campaign gap api server research tests bench -name "*.cc" -o -name "*.h" | sort | xargs -P 2 -n 400 "$formatter" --dry-run --Werror

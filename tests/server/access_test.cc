@@ -1,4 +1,4 @@
-#include "server/access.h"
+#include "server/operations/access.h"
 
 #include <gtest/gtest.h>
 

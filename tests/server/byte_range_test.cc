@@ -1,4 +1,4 @@
-#include "server/byte_range.h"
+#include "server/routes/byte_range.h"
 
 #include <gtest/gtest.h>
 

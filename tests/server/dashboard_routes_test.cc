@@ -1,10 +1,10 @@
-#include "server/dashboard_routes.h"
+#include "server/routes/dashboard_routes.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "server/responses.h"
+#include "server/routes/responses.h"
 
 namespace slipway::server {
 namespace {

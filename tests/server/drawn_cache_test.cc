@@ -1,4 +1,4 @@
-#include "server/drawn_cache.h"
+#include "server/routes/drawn_cache.h"
 
 #include <gtest/gtest.h>
 

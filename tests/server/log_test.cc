@@ -1,4 +1,4 @@
-#include "server/log.h"
+#include "server/operations/log.h"
 
 #include <gtest/gtest.h>
 

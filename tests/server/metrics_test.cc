@@ -1,4 +1,4 @@
-#include "server/metrics.h"
+#include "server/operations/metrics.h"
 
 #include <gtest/gtest.h>
 

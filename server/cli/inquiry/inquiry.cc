@@ -10,13 +10,13 @@
 #include <thread>
 
 #include "api/documents/catalogue_documents.h"
-#include "api/documents/station_csv.h"
-#include "api/documents/wheel_sweep_answer.h"
+#include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
 #include "api/report/check_report.h"
 #include "api/report/route_map.h"
+#include "api/export/station_csv.h"
 #include "api/service.h"
 #include "api/wheel_sweep.h"
 #include "server/cli/inquiry/data_folder.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "api/documents/diagnosis_document.h"
-#include "api/documents/soil_estimate_document.h"
+#include "api/documents/diagnosis/diagnosis_document.h"
+#include "api/documents/soil/soil_estimate_document.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/requests/soil_estimate.h"
 #include "gap/diagnosis/model/channel.h"

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "api/documents/catalogue_documents.h"
-#include "api/documents/diagnosis_request.h"
+#include "api/documents/diagnosis/diagnosis_request.h"
 #include "api/documents/prediction_request.h"
-#include "benchmark/hidden_effect.h"
-#include "benchmark/sealed_campaigns.h"
 #include "gap/diagnosis/model/hypothesis.h"
 #include "gap/diagnosis/model/window_model.h"
+#include "research/benchmark/hidden_effect.h"
+#include "research/benchmark/sealed_campaigns.h"
 #include "sim/effects/effect_catalogue.h"
 #include "tests/api/made_diagnosis.h"
 #include "tests/api/small_world.h"

@@ -1,0 +1,152 @@
+#include "server/cli/inquiry/drive_answer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "api/chart/drive_history.h"
+#include "api/export/answer_vectors.h"
+#include "api/documents/drive_commands.h"
+#include "api/files/model_folder.h"
+#include "api/json/parse.h"
+#include "api/export/station_csv.h"
+#include "dem/body_degrees.h"
+#include "server/cli/inquiry/command_parts.h"
+#include "server/cli/terminal/terminal_progress.h"
+
+namespace slipway::server {
+namespace {
+
+// An answer of ours: whoever prints it has read it already.
+api::json::JsonValue read_answer(std::string_view answer) {
+  return api::json::parse(answer, {.bytes = answer.size(), .values = answer.size()}).value();
+}
+
+// The map of the answer's terrain, by whoever answered.
+Result<api::json::AnswerMap> map_of(Inquiry& service, const std::string& terrain) {
+  const auto terrains = service.catalogue("terrains");
+  if (!terrains) return fail(terrains.error());
+  return api::json::map_of_terrain(*terrains, terrain);
+}
+
+Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool geopackage, bool lonlat) {
+  const auto map = map_of(service, api::json::terrain_of_answer(answer));
+  if (!map) return fail(map.error());
+  std::string stations;
+  if (api::json::is_thinned(answer)) {
+    auto all = service.stations();
+    if (!all) return fail(all.error());
+    stations = *std::move(all);
+  }
+  if (geopackage) return api::json::answer_geopackage(answer, *map, stations);
+  using api::json::VectorCoordinates;
+  return api::json::answer_geojson(
+      answer, *map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
+}
+
+Result<std::string> commands_of(const std::string& answer, const Pictures& pictures) {
+  const api::json::JsonValue plan = read_answer(answer);
+  if (pictures.commands.ends_with(".csv")) return api::json::commands_table(plan, pictures.route);
+  auto request = api::json::check_of_route(plan, pictures.route);
+  if (!request) return request;
+  return *request + "\n";
+}
+
+}  // namespace
+
+Pictures pictures_of(const DriveOptions& drive) {
+  return {.map = drive.map,
+          .csv = drive.csv,
+          .gpkg = drive.gpkg,
+          .geojson = drive.geojson,
+          .lonlat = drive.lonlat};
+}
+
+Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
+                          const std::vector<PlaceOption*>& places) {
+  const auto service = inquiry(ask);
+  if (!service) return fail(service.error());
+  const auto map = map_of(**service, terrain);
+  if (!map) return fail(map.error());
+  const dem::BodyDegrees degrees(map->crs_wkt, map->body);
+  std::vector<Fault> faults;
+  for (PlaceOption* const place : places) {
+    const bool possible = std::abs(place->x_m) <= 360.0 && std::abs(place->y_m) <= 90.0;
+    const auto found = possible ? degrees.to_map({place->x_m, place->y_m}) : std::nullopt;
+    if (found) {
+      place->x_m = found->x;
+      place->y_m = found->y;
+    } else {
+      faults.push_back(
+          {"--lonlat", fmt::format("{},{} is no longitude,latitude in degrees on this map{}", place->x_m,
+                                   place->y_m, possible ? "" : ": these are map metres")});
+    }
+  }
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "Places can't be brought to the map.", std::move(faults));
+  return {};
+}
+
+int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
+                  Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
+                  Result<std::string> (*table)(std::string_view, bool why),
+                  ExitStatus (*verdict)(std::string_view), const std::function<Error(Error)>& placed) {
+  if (!request) return refuse(request.error());
+  const auto service = inquiry(ask);
+  if (!service) return refuse(service.error());
+  Result<std::string> answer;
+  {
+    TerminalProgress progress;
+    answer = ((**service).*question)(*request, progress);
+  }
+  if (!answer) return refuse(placed ? placed(answer.error()) : answer.error());
+  const auto printed = ask.json ? answer : table(*answer, ask.why);
+  if (!printed) return refuse(printed.error());
+  std::vector<OutputFile> files;
+  std::optional<Error> unmade;
+  const auto add = [&](const std::string& path, Result<std::string> made) {
+    if (made)
+      files.push_back({path, *std::move(made)});
+    else
+      unmade = made.error();
+  };
+  if (!pictures.map.empty()) add(pictures.map, (*service)->map());
+  if (!pictures.history.empty()) add(pictures.history, api::draw_drive_history(*answer));
+  if (!pictures.report.empty()) add(pictures.report, (*service)->report());
+  if (!pictures.csv.empty()) add(pictures.csv, (*service)->stations());
+  if (!pictures.gpkg.empty()) add(pictures.gpkg, vectors_of(**service, *answer, true, false));
+  if (!pictures.geojson.empty())
+    add(pictures.geojson, vectors_of(**service, *answer, false, pictures.lonlat));
+  if (!pictures.commands.empty()) add(pictures.commands, commands_of(*answer, pictures));
+  const int status = deliver(files, *printed + (ask.json ? "\n" : ""));
+  if (unmade) return refuse(*unmade);
+  return status == kDone ? verdict(*answer) : status;
+}
+
+ExitStatus check_status(std::string_view check) {
+  return status_of(read_answer(check).find("verdict")->text);
+}
+
+ExitStatus prediction_status(std::string_view prediction) {
+  return status_of(read_answer(prediction).find("decision")->find("verdict")->text);
+}
+
+ExitStatus plan_status(std::string_view plan) {
+  const api::json::JsonValue document = read_answer(plan);
+  const auto& routes = document.find("summary")->elements;
+  return routes.empty() ? kNoGo : status_of(routes.front().find("verdict")->text);
+}
+
+Result<std::string> models_rover(const AskOptions& ask, const std::string& rover, bool any_rover) {
+  if (ask.model.empty()) return rover;
+  const auto folder = api::load_model_folder(ask.model);
+  if (!folder) return fail(folder.error());
+  const std::string& corrected = folder->model.rover.name;
+  if (rover == folder->nominal_rover || rover == corrected) return corrected;
+  if (!any_rover) return fail(api::not_of_this_rover(*folder, rover));
+  return rover;
+}
+
+}  // namespace slipway::server

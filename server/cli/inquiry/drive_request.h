@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "api/json/writer.h"
+#include "core/result.h"
+#include "server/cli/inquiry/drive_options.h"
+
+namespace slipway::server {
+
+void write_place(api::json::Writer& w, const PlaceOption& place);
+
+// The members that plans, predictions and checks have in common, of the object that is being written. Errors:
+// those of write_zone_options().
+Result<void> write_drive(api::json::Writer& w, const DriveOptions& drive);
+
+// A whole request from a file, or from standard input where the path is "-"; an interruption ends the
+// reading. Errors: unreadable_data; payload_too_large beyond what the service takes, of which no more is
+// read; cancelled.
+Result<std::string> read_request(const std::string& path);
+
+}  // namespace slipway::server
