@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "campaign/digest.h"
+#include "core/digest.h"
 #include "core/parallel_for.h"
 #include "core/random.h"
 #include "planner/problem/terrain_ground.h"
@@ -23,8 +23,8 @@ sim::Soil soil_of(const DriveTable& table, const TableDrive& drive, const std::s
   const sim::SoilDistribution& belief = table.soils.find(name)->second;
   sim::Soil soil = belief.mean;
   if (table.draw_soils) {
-    const std::uint64_t of_drive = random_key(random_key(table.seed, kSoilStream), digest_of(drive.id));
-    const std::uint64_t key = random_key(of_drive, digest_of(name));
+    const std::uint64_t of_drive = random_key(random_key(table.seed, kSoilStream), fnv1a(drive.id));
+    const std::uint64_t key = random_key(of_drive, fnv1a(name));
     sim::SoilNormals normals;
     for (int i = 0; i < sim::kSoilDims; ++i) normals[i] = random_normal(key, static_cast<std::uint64_t>(i));
     soil = sim::draw_soil(belief, normals);
@@ -71,8 +71,8 @@ MadeDrive make_drive(const DriveTable& table, const TableDrive& drive, Simulator
   sim::DriveSensors sensors = table.sensors;
   sensors.seed = random_key(table.seed, kSensorStream);
   const sim::DriveSink keep = [&](const sim::DriveSample& sample) {
-    made.readings.push_back(sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(),
-                                              options.sample_interval_s, sample));
+    made.readings.push_back(
+        sim::read_sensors(sensors, fnv1a(drive.id), made.readings.size(), options.sample_interval_s, sample));
   };
   made.drive = simulator(rover, table.gravity_m_s2, ground, made.soils, drive.start, entry.legs, options,
                          keep, progress);

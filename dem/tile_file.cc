@@ -10,6 +10,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/digest.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -19,13 +21,13 @@ struct TileHead {
   std::uint64_t sum = 0;
 };
 
-// FNV-1a over words of eight bytes: it tells a whole tile from one that was cut off.
+// Over words of eight bytes: it tells a whole tile from one that was cut off.
 std::uint64_t sum_of(const std::vector<std::uint8_t>& bytes) {
-  std::uint64_t sum = 14695981039346656037ULL;
+  std::uint64_t sum = kFnvBasis;
   for (std::size_t i = 0; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + i, sizeof word);
-    sum = (sum ^ word) * 1099511628211ULL;
+    sum = fnv1a(sum, word);
   }
   return sum;
 }

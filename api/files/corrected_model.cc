@@ -11,7 +11,7 @@
 #include "api/files/rover_file.h"
 #include "api/files/soil_file.h"
 #include "api/json/writer.h"
-#include "campaign/digest.h"
+#include "core/digest.h"
 #include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -58,7 +58,7 @@ std::string version_of(const CorrectedModel& model) {
   json::Writer w;
   json::write_rover(w, model.rover);
   for (const sim::SoilDistribution& soil : model.soils) json::write_soil(w, soil);
-  return fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
+  return fmt::format("{:016x}", fnv1a(w.take())).substr(0, 6);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
-#include "campaign/digest.h"
+#include "core/digest.h"
 
 namespace slipway::api {
 namespace {
@@ -110,7 +110,7 @@ std::string digest_of(const sim::RoverModel& rover) {
   same.drive.max_wheel_rate_rad_s = 0.0;
   json::Writer w;
   json::write_rover(w, same);
-  return fmt::format("{:016x}", campaign::digest_of(w.take()));
+  return fmt::format("{:016x}", fnv1a(w.take()));
 }
 
 std::string digest_of(const gap::NominalSoil& soil) {
@@ -118,7 +118,7 @@ std::string digest_of(const gap::NominalSoil& soil) {
   same.mean = soil.soil;
   json::Writer w;
   json::write_soil(w, same);
-  return fmt::format("{:016x}", campaign::digest_of(w.take()));
+  return fmt::format("{:016x}", fnv1a(w.take()));
 }
 
 std::string model_document(const gap::DriveCampaign& campaign, const CorrectedModel& model) {

@@ -10,8 +10,8 @@
 #include "api/json/faults.h"
 #include "api/json/writer.h"
 #include "api/requests/soil_test_rigs.h"
-#include "campaign/digest.h"
 #include "core/angle.h"
+#include "core/digest.h"
 
 namespace slipway::api {
 namespace {
@@ -59,7 +59,7 @@ void name_posterior(sim::SoilDistribution& soil, const std::vector<gap::Estimate
       open.push_back(p.parameter.name);
   json::Writer w;
   json::write_soil(w, soil);
-  const std::string version = fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
+  const std::string version = fmt::format("{:016x}", fnv1a(w.take())).substr(0, 6);
   soil.summary = shortened(fmt::format("{} as {} show it{}{}", nominal, what,
                                        open.empty() ? "" : "; not determined: ", fmt::join(open, ", ")),
                            kMaxText);

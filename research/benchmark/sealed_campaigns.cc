@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
-#include "campaign/digest.h"
 #include "core/angle.h"
+#include "core/digest.h"
 #include "core/random.h"
 #include "dem/synthetic_terrain.h"
 #include "research/benchmark/hidden_effect.h"
@@ -350,7 +350,7 @@ std::span<const std::string_view> sealed_sets() {
 
 std::vector<SealedCampaign> sealed_campaigns(std::string_view set, std::uint64_t seed,
                                              const std::shared_ptr<const sim::RoverModel>& rover) {
-  const std::uint64_t key = random_key(seed, digest_of(set == "smoke" ? "smoke" : "each"));
+  const std::uint64_t key = random_key(seed, fnv1a(set == "smoke" ? "smoke" : "each"));
   Dice dice(key);
   std::vector<Order> orders =
       set != "smoke"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/json/problem_document.h"
+#include "core/digest.h"
 #include "server/routes/query.h"
 #include "server/routes/request_headers.h"
 
@@ -42,10 +43,7 @@ HttpResponse problem(ErrorCode code, std::string detail, const HttpRequest& requ
 }
 
 std::string tag_of(std::string_view bytes) {
-  // FNV-1a [http://www.isthe.com/chongo/tech/comp/fnv].
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("\"{:016x}\"", hash);
+  return fmt::format("\"{:016x}\"", fnv1a(bytes));
 }
 
 HttpResponse tagged(HttpResponse response, const std::string& tag, const HttpRequest& request) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/digest.h"
 #include "core/random.h"
 
 namespace slipway::sim {
@@ -30,11 +31,9 @@ std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
   return random_key(random_key(key, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
 }
 
-// FNV-1a of the soil's name: the index of a soil in a map's legend is another for another window of the map.
+// By the soil's name: the index of a soil in a map's legend is another for another window of the map.
 std::uint64_t name_key(std::uint64_t key, const std::string& name) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return random_key(key, hash);
+  return random_key(key, fnv1a(name));
 }
 
 bool has_closure_spread(const SoilDistribution& of) {

@@ -11,7 +11,7 @@
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/campaign/drive_series_csv.h"
 #include "api/json/faults.h"
-#include "campaign/digest.h"
+#include "core/digest.h"
 
 namespace slipway::api {
 namespace {
@@ -24,7 +24,7 @@ class AppendedReader {
   explicit AppendedReader(const gap::DriveCampaign& setting) : campaign_(setting) {
     campaign_.drives.clear();
     campaign_.notes.clear();
-    digest_ = campaign::digest_of(setting.fingerprint);
+    digest_ = fnv1a(setting.fingerprint);
     for (const sim::WheelModel& wheel : setting.rover->wheels) wheels_.push_back(wheel.name);
     for (const gap::CampaignTerrain& terrain : setting.terrains) terrains_.push_back(terrain.name);
   }
@@ -61,12 +61,12 @@ class AppendedReader {
     if (object.text("csv", json::kRequired, {.most = kMaxCsvBytes}, csv)) read_rows(object, csv, drive);
     object.refuse_unknown();
     const sim::DriveCommand& command = drive.command;
-    digest_ = campaign::digest_of(
+    digest_ = fnv1a(
         fmt::format("{}\n{}\n{} {} {} {} {} {} {}\n{}\n", drive.id, terrains_[drive.terrain],
                     command.speed_m_s, command.curvature_1_m, command.turn_rate_rad_s, command.crab_rad,
                     command.turn_in_place, drive.duration_s, drive.final_only, drive.repeat_of.value_or("")),
         digest_);
-    digest_ = campaign::digest_of(csv, digest_);
+    digest_ = fnv1a(csv, digest_);
   }
 
   void read_rows(json::ObjectReader& object, const std::string& csv, gap::MeasuredDriveSeries& drive) {

@@ -18,7 +18,7 @@
 #include "api/files/terrain_site.h"
 #include "api/json/faults.h"
 #include "api/json/text_place.h"
-#include "campaign/digest.h"
+#include "core/digest.h"
 #include "dem/elevation_source.h"
 #include "dem/soil_map.h"
 #include "gap/diagnosis/model/drive_window.h"
@@ -64,7 +64,7 @@ std::uint64_t digest_of_file(const fs::path& path, std::uint64_t digest) {
   std::ifstream stream(path, std::ios::binary);
   std::array<char, 1 << 16> block{};
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
-    digest = campaign::digest_of({block.data(), static_cast<std::size_t>(stream.gcount())}, digest);
+    digest = fnv1a({block.data(), static_cast<std::size_t>(stream.gcount())}, digest);
   return digest;
 }
 
@@ -78,7 +78,7 @@ std::string with_place(std::string_view document, const std::string& pointer, co
 class Loader {
  public:
   Loader(const fs::path& folder, std::string_view document, json::DriveCampaignFile file)
-      : folder_(folder), document_(document), file_(std::move(file)), digest_(campaign::digest_of(document)) {
+      : folder_(folder), document_(document), file_(std::move(file)), digest_(fnv1a(document)) {
     for (const Fault& fault : file_.faults) add(fault.pointer, fault.message);
     if (!file_.rover) return;  // then columns of wheels are passed over, with the fault that says why
     for (const sim::WheelModel& wheel : file_.rover->wheels) wheels_.push_back(wheel.name);
@@ -98,7 +98,7 @@ class Loader {
     note_columns();
     json::Writer rover;
     json::write_rover(rover, *campaign_.rover);
-    campaign_.fingerprint = fmt::format("{:016x}", campaign::digest_of(rover.take(), digest_));
+    campaign_.fingerprint = fmt::format("{:016x}", fnv1a(rover.take(), digest_));
     return std::move(campaign_);
   }
 
@@ -140,7 +140,7 @@ class Loader {
                       kMaxCells));
     const auto terrain = (*source)->read(geometry.extent());
     if (!terrain) return fail(terrain.error());
-    const std::uint64_t digest = digest_of_file(*path, campaign::digest_of({}));
+    const std::uint64_t digest = digest_of_file(*path, kFnvBasis);
     return &elevations_.emplace(*path, Elevation{(*source)->info(), *terrain, digest}).first->second;
   }
 
@@ -150,15 +150,14 @@ class Loader {
     if (entry.dem.empty()) return;
     const auto elevation = elevation_in(entry.dem);
     if (!elevation) return add(entry.pointer + "/dem", elevation.error().detail);
-    std::uint64_t digest = campaign::digest_of((*elevation)->terrain->fingerprint());
+    std::uint64_t digest = fnv1a((*elevation)->terrain->fingerprint());
     if (!entry.soil.empty()) {
       terrain.ground = std::make_shared<const RecordedGround>((*elevation)->terrain, soil_index(entry.soil));
     } else if (!entry.soil_raster.empty()) {
       terrain.ground = mapped_ground(entry, **elevation, digest);
     }
     terrain.fingerprint = fmt::format("{:016x}", digest);
-    digest_ =
-        campaign::digest_of(fmt::format("{:016x}{}", (*elevation)->digest, terrain.fingerprint), digest_);
+    digest_ = fnv1a(fmt::format("{:016x}{}", (*elevation)->digest, terrain.fingerprint), digest_);
   }
 
   std::shared_ptr<const sim::Ground> mapped_ground(const json::CampaignTerrainEntry& entry,
@@ -176,7 +175,7 @@ class Loader {
     std::vector<std::size_t> soils;
     for (const std::string& name : (*map)->soils()) soils.push_back(soil_index(name));
     for (const dem::SoilClass& row : entry.classes)
-      digest = campaign::digest_of(fmt::format("{} {};", row.value, row.soil.value_or("")), digest);
+      digest = fnv1a(fmt::format("{} {};", row.value, row.soil.value_or("")), digest);
     return std::make_shared<const RecordedGround>(elevation.terrain, *map, std::move(soils));
   }
 
@@ -186,7 +185,7 @@ class Loader {
     const auto path = place_in(folder_, entry.file);
     const auto bytes = path ? read_data_file(*path) : Result<std::string>(fail(path.error()));
     if (!bytes) return add(entry.pointer + "/file", bytes.error().detail);
-    digest_ = campaign::digest_of(*bytes, digest_);
+    digest_ = fnv1a(*bytes, digest_);
     DriveSeries series = read_drive_series(*bytes, entry.file, wheels_, kMaxRows - rows_);
     rows_ += series.samples.size();
     faults_.insert(faults_.end(), series.faults.begin(), series.faults.end());

@@ -10,7 +10,7 @@
 #include "api/files/drive_table/drive_table_file.h"
 #include "api/files/soil_file.h"
 #include "api/json/faults.h"
-#include "campaign/digest.h"
+#include "core/digest.h"
 #include "core/version.h"
 #include "dem/geotiff.h"
 
@@ -27,9 +27,9 @@ Result<std::string> digest_of(const std::string& bytes, const campaign::DriveTab
                               const fs::path& data) {
   const auto rover = read_data_file(data / "rovers" / (table.rover->name + ".json"));
   if (!rover) return fail(rover.error());
-  std::uint64_t digest = campaign::digest_of(build_id());
-  digest = campaign::digest_of(bytes, digest);
-  digest = campaign::digest_of(*rover, digest);
+  std::uint64_t digest = fnv1a(build_id());
+  digest = fnv1a(bytes, digest);
+  digest = fnv1a(*rover, digest);
   std::set<std::string> soils;
   for (const campaign::TableTerrain& terrain : table.terrains) {
     for (const std::string& name : campaign::soils_of(terrain)) soils.insert(name);
@@ -37,15 +37,15 @@ Result<std::string> digest_of(const std::string& bytes, const campaign::DriveTab
       const auto classes =
           dem::encode_geotiff(*terrain.soil_map, campaign::class_elsewhere(terrain), terrain.crs_wkt);
       if (!classes) return fail(classes.error());
-      digest = campaign::digest_of(*classes, digest);
+      digest = fnv1a(*classes, digest);
     }
-    digest = campaign::digest_of(terrain.ground->fingerprint(), digest);
-    digest = campaign::digest_of(terrain.crs_wkt, digest);
+    digest = fnv1a(terrain.ground->fingerprint(), digest);
+    digest = fnv1a(terrain.crs_wkt, digest);
   }
   for (const std::string& name : soils) {
     json::Writer w;
     json::write_soil(w, table.soils.find(name)->second);
-    digest = campaign::digest_of(w.take(), digest);
+    digest = fnv1a(w.take(), digest);
   }
   return fmt::format("{:016x}", digest);
 }
