@@ -165,8 +165,11 @@ void wheel_forces(std::span<const WheelNumbers> wheels, std::span<WheelForces> f
   const WheelKernel& kernel = wheel_kernel();
   LawParts parts;
   for (const WheelNumbers& wheel : wheels) parts.include(wheel);
-  const std::size_t rest = wheels.size() % kernel.lanes;
-  const std::size_t packed = 2 * rest < kernel.lanes ? wheels.size() - rest : wheels.size();
+  // The same wheels by packs whatever the kernel's width, since a wheel in a pack may differ in the last bit
+  // from one alone.
+  constexpr std::size_t kPack = 8;
+  const std::size_t rest = wheels.size() % kPack;
+  const std::size_t packed = 2 * rest < kPack ? wheels.size() - rest : wheels.size();
   kernel.many(wheels.data(), parts, forces.data(), packed);
   for (std::size_t k = packed; k < wheels.size(); ++k) kernel.one(wheels[k], parts, forces[k]);
 }

@@ -128,8 +128,8 @@ struct WheelKernel {
   void (*many)(const WheelNumbers* in, const LawParts& parts, WheelForces* out, std::size_t count);
 };
 
-// The fastest kernel that this machine runs. Kernels agree to rounding (tests), not to the bit: the same
-// request gives the same bytes on the same kind of machine.
+// The fastest kernel that this machine runs. AVX2 and AVX-512 agree to the bit, SSE2, which has no fused
+// multiply-add, to rounding (tests).
 const WheelKernel& wheel_kernel();
 // Forces of several wheels, each on its own soil: spans of one length. Takes them in packs and, where less
 // than half a pack is left over, one by one.

@@ -4,6 +4,7 @@
 // template here carries the set in its type, so that the linker can't mix them up.
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -12,6 +13,46 @@
 #include "sim/wheel/wheel_closures.h"
 #include "sim/wheel/wheel_kernel.h"
 #include "sim/wheel/wheel_law.h"
+
+// xsimd's logarithm (after FreeBSD's e_log.c) with its only sum of two products taken in one order. xsimd 10
+// has no fused multiply-add for AVX-512 and leaves it to g++, which fused the other product: one logarithm in
+// some thousand had another last bit than with AVX2. The law's other functions agree to the bit.
+namespace xsimd {
+
+inline batch<double, SLIPWAY_KERNEL_ARCH> log(const batch<double, SLIPWAY_KERNEL_ARCH>& x) noexcept {
+  using V = batch<double, SLIPWAY_KERNEL_ARCH>;
+  using Whole = as_integer_t<V>;
+  const auto fused = [](const V& a, const V& b, const V& c) {
+#ifdef __AVX512F__
+    return V(_mm512_fmadd_pd(a, b, c));
+#else
+    return fma(a, b, c);
+#endif
+  };
+  // x = 2^k (1 + f), 1 + f from sqrt(1/2) to sqrt(2).
+  const Whole bits = bitwise_cast<Whole>(x);
+  const Whole high = (bits >> 32) + (0x3ff00000 - 0x3fe6a09e);
+  const V k = to_float((high >> 20) - Whole(0x3ff));
+  const Whole scaled = ((high & Whole(0x000fffff)) + Whole(0x3fe6a09e)) << 32 | (bits & Whole(0xffffffff));
+  const V f = bitwise_cast<V>(scaled) - V(1.0);
+  const V half_square = V(0.5) * f * f;
+  const V s = f / (V(2.0) + f);
+  const V z = s * s, w = z * z;
+  const V odd = w * fused(w, fused(w, V(1.531383769920937332e-01), V(2.222219843214978396e-01)),
+                          V(3.999999999940941908e-01));
+  const V even = fused(w,
+                       fused(w, fused(w, V(1.479819860511658591e-01), V(1.818357216161805012e-01)),
+                             V(2.857142874366239149e-01)),
+                       V(6.666666666666735130e-01));
+  const V rest = fused(z, even, odd);
+  const V log2_high(6.93147180369123816490e-01), log2_low(1.90821492927058770002e-10);
+  const V value = fused(k, log2_high, fused(s, half_square + rest, k * log2_low) - half_square + f);
+  const V at_ends = select(x == V(0.0), V(-std::numeric_limits<double>::infinity()), value);
+  return select(x >= V(0.0) && x <= V(std::numeric_limits<double>::max()), at_ends,
+                select(x > V(0.0), x, V(std::numeric_limits<double>::quiet_NaN())));
+}
+
+}  // namespace xsimd
 
 namespace slipway::sim {
 namespace {
@@ -94,23 +135,32 @@ Values<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels) {
   return packed;
 }
 
-// The sums over the lanes in every lane.
-void sum_lanes(ContactIntegrals<Pack>& sum) {
-  for (Pack* part : {&sum.tau, &sum.tau_cos, &sum.tau_sin, &sum.tau_y, &sum.sigma_cos, &sum.sigma_sin, &sum.m,
-                     &sum.m_cos, &sum.m_sin})
-    *part = Pack(hadd(*part));
+constexpr std::size_t kNodePacks = kArcNodes / kLanes;  // packs that hold the nodes of an arc
+
+// The sums over all nodes in every lane. Halves are added until one pack is left, as the widest instruction
+// set adds its halves, so that every set with fused multiply-add gives the same bits.
+ContactIntegrals<Pack> sum_nodes(std::array<ContactIntegrals<Pack>, kNodePacks>& sums) {
+  for (const auto part :
+       {&ContactIntegrals<Pack>::tau, &ContactIntegrals<Pack>::tau_cos, &ContactIntegrals<Pack>::tau_sin,
+        &ContactIntegrals<Pack>::tau_y, &ContactIntegrals<Pack>::sigma_cos,
+        &ContactIntegrals<Pack>::sigma_sin, &ContactIntegrals<Pack>::m, &ContactIntegrals<Pack>::m_cos,
+        &ContactIntegrals<Pack>::m_sin}) {
+    for (std::size_t half = kNodePacks / 2; half > 0; half /= 2)
+      for (std::size_t k = 0; k < half; ++k) sums[k].*part = sums[k].*part + sums[k + half].*part;
+    sums[0].*part = Pack(hadd(sums[0].*part));
+  }
+  return sums[0];
 }
 
 // The nodes of one wheel's arcs in packs.
 template <class Laws>
 LaneForces<Pack> one_wheel_by(const Laws& laws, const WheelValues<Pack>& in, const ContactAngles<Pack>& at,
                               const LawParts& parts) {
-  ContactIntegrals<Pack> sum;
-  for (std::size_t k = 0; k < kArcNodes; k += kLanes)
-    add_both_arcs(laws, in, at, parts, Pack::load_aligned(&kArcQuadrature.node[k]),
-                  Pack::load_aligned(&kArcQuadrature.weight[k]), sum);
-  sum_lanes(sum);
-  return total_forces(in, at, parts, sum);
+  std::array<ContactIntegrals<Pack>, kNodePacks> sums;
+  for (std::size_t k = 0; k < kNodePacks; ++k)
+    add_both_arcs(laws, in, at, parts, Pack::load_aligned(&kArcQuadrature.node[k * kLanes]),
+                  Pack::load_aligned(&kArcQuadrature.weight[k * kLanes]), sums[k]);
+  return total_forces(in, at, parts, sum_nodes(sums));
 }
 
 // The same node of several wheels in a pack.

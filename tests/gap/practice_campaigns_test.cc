@@ -91,7 +91,7 @@ TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
 }
 
 TEST(PracticeCampaigns, BothOfAPairAreFound) {
-  const Diagnosis diagnosis = diagnosis_of("p07", 3);
+  const Diagnosis diagnosis = diagnosis_of("p07", 2);
   EXPECT_EQ(diagnosis.verdict, Verdict::kEffects) << diagnosis.reason;
   std::vector<std::string> named = names(diagnosis);
   std::sort(named.begin(), named.end());

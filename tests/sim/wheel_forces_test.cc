@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/angle.h"
+#include "core/random.h"
 #include "sim/soil/terzaghi.h"
 #include "sim/wheel/entry_angle.h"
 #include "sim/wheel/slip_ratio.h"
@@ -234,6 +236,55 @@ TEST(WheelKernel, AllInstructionSetsAgreeToRounding) {
       EXPECT_NEAR(first.lateral_n, other.lateral_n, 1e-11 * first.vertical_n) << kernels[k]->instruction_set;
       EXPECT_NEAR(first.vertical_n, other.vertical_n, 1e-11 * first.vertical_n)
           << kernels[k]->instruction_set;
+    }
+  }
+}
+
+// A wheel on random soil: every second one with slip sinkage, every fourth with bulldozing and cleats
+// besides, every eighth with a crust and side walls too.
+WheelNumbers random_wheel(std::uint64_t key) {
+  const auto u = [&](std::uint64_t counter) { return random_uniform(key, counter); };
+  Soil soil;
+  soil.pressure = {.k_c = 1e3 + 3e4 * u(0), .k_phi = 1e5 + 1e6 * u(1), .n = 0.5 + u(2)};
+  soil.cohesion_pa = 2000.0 * u(3);
+  soil.friction_angle_rad = 0.4 + 0.4 * u(4);
+  soil.shear_modulus_x_m = 0.005 + 0.03 * u(5);
+  soil.shear_modulus_y_m = 0.005 + 0.03 * u(6);
+  soil.c1 = 0.5 * u(7);
+  soil.c2 = 0.3 * u(8);
+  soil.n1 = key % 2 == 0 ? 0.4 * u(9) : 0.0;
+  soil.bulldozing = key % 4 == 0 ? u(10) : 0.0;
+  soil.side_bulldozing = key % 8 == 0 ? u(11) : 0.0;
+  soil.crust = {key % 8 == 0 ? 2000.0 * u(12) : 0.0, 0.02};
+  WheelGeometry wheel{0.12 + 0.2 * u(13), 0.1 + 0.3 * u(14)};
+  if (key % 4 == 0) wheel.grousers = {0.01, 24.0};
+  return numbers_of(wheel, soil, 0.1 + u(15), {0.1 + 1.6 * u(16), 0.2 * (u(17) - 0.5)});
+}
+
+// An answer is the same on every machine with fused multiply-add, whatever the width of its packs.
+TEST(WheelKernel, InstructionSetsWithFusedMultiplyAddAgreeToTheBit) {
+  const WheelKernel* kernels[3] = {};
+  if (wheel_kernels(kernels, 3) < 3) GTEST_SKIP() << "this machine has no AVX-512";
+  constexpr std::size_t kWheels = 16;
+  const auto same = [](const WheelForces& a, const WheelForces& b) {
+    return a.drawbar_pull_n == b.drawbar_pull_n && a.lateral_n == b.lateral_n &&
+           a.vertical_n == b.vertical_n && a.torque_nm == b.torque_nm;
+  };
+  for (std::uint64_t batch = 0; batch < 2000; ++batch) {
+    std::vector<WheelNumbers> wheels;
+    LawParts parts;
+    for (std::uint64_t k = 0; k < kWheels; ++k) {
+      wheels.push_back(random_wheel(batch * 8 * kWheels + k * (batch % 8)));
+      parts.include(wheels.back());
+    }
+    std::array<WheelForces, kWheels> narrow, wide;
+    kernels[1]->many(wheels.data(), parts, narrow.data(), kWheels);
+    kernels[2]->many(wheels.data(), parts, wide.data(), kWheels);
+    for (std::size_t k = 0; k < kWheels; ++k) {
+      ASSERT_TRUE(same(narrow[k], wide[k])) << "in a pack: " << batch << ", " << k;
+      kernels[1]->one(wheels[k], parts, narrow[k]);
+      kernels[2]->one(wheels[k], parts, wide[k]);
+      ASSERT_TRUE(same(narrow[k], wide[k])) << "alone: " << batch << ", " << k;
     }
   }
 }
