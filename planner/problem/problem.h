@@ -55,7 +55,6 @@ struct PlanProblem {
   int routes = 3;
   int verify = 0;                     // how many of the best-ranked are driven in the dynamic simulation too
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
-  std::uint64_t seed = 1;
   sim::RiskOptions risk;
   // How many of risk.draws rank the candidates at first, where these are many; 0: all of them.
   int ranking_draws = 0;

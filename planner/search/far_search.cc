@@ -16,6 +16,7 @@
 #include "planner/search/corridor_cells.h"
 #include "planner/search/grid_leg_planner.h"
 #include "planner/search/grid_search.h"
+#include "planner/search/leg_search.h"
 #include "planner/search/leg_setting.h"
 #include "planner/search/long_leg.h"
 #include "planner/search/overlap.h"
@@ -248,7 +249,7 @@ class FarProposer {
       const GridSearch grid(cost);
       const PoseSampler sampler(grid, map, grid.cost_to_come(from.x_m, from.y_m, {-1, cancelled_}),
                                 grid.cost_to_go(to.x_m, to.y_m, {-1, cancelled_}), from.x_m, from.y_m);
-      const std::uint64_t key = random_key(random_key(problem_.seed, leg), piece);
+      const std::uint64_t key = random_key(random_key(kProposalSeed, leg), piece);
       LegSearch search =
           leg_between(cost, sampler, at, from, to, random_key(random_key(key, number), planner));
       search.cancelled = cancelled_;

@@ -9,6 +9,10 @@
 
 namespace slipway::planner {
 
+// Of the random numbers that propose routes, for every plan: a request's own seed draws the ground alone, so
+// that another draw of the ground is judged on the same candidates.
+constexpr std::uint64_t kProposalSeed = 1;
+
 // One leg: what a planner is given to get from one place to the next.
 struct LegSearch {
   const MotionCost* cost = nullptr;

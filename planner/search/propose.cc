@@ -167,7 +167,7 @@ class Proposer {
     }
     LegSearch search = leg_between(
         guide.cost, *guide.sampler, draft.guided.at, from, to,
-        random_key(random_key(random_key(problem_.seed, leg), static_cast<std::uint64_t>(round)), number));
+        random_key(random_key(random_key(kProposalSeed, leg), static_cast<std::uint64_t>(round)), number));
     search.cancelled = [this] { return progress_.cancelled(); };
     std::vector<Pose2> poses = draft.by->planner->search(search);
     if (!joins(poses, search)) return false;

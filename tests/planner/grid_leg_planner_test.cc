@@ -45,8 +45,6 @@ TEST(GridPlanner, IsAskedForByNameAndDrivesMotionsOfTheRover) {
     for (const sim::StationPrediction& s : stations)
       EXPECT_LE(std::abs(s.station.curvature_1_m) * problem.rover->min_turn_radius_m, 1.0 + 1e-9);
   }
-  problem.seed = 99;
-  EXPECT_EQ(grid_plan(problem).routes[0].prediction.length_m, plan.routes[0].prediction.length_m);
 }
 
 // Whatever the default set is, the grid's way and the straight line are simulated: on open ground the best

@@ -66,7 +66,6 @@ TEST(Plan, TheSameRequestGivesTheSameBytesOnOneAndTwoThreadsAndAfterAnotherPlan)
   problem.threads = 1;
   const Plan first = plan_of(problem);
   PlanProblem other = problem;
-  other.seed = 77;
   other.goal.y_m += 4.0;
   const Plan unrelated = plan_of(other);
   problem.threads = 2;

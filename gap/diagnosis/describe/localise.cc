@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "gap/diagnosis/describe/regimes.h"
 #include "gap/diagnosis/describe/slices.h"
+#include "gap/diagnosis/search/random_streams.h"
 
 namespace slipway::gap {
 namespace {
@@ -160,7 +161,7 @@ ChannelPlaces channel_places(std::span<const PlacedWindow> all, const ChannelSqu
   by_chance.assign(permutation_count(options), 0.0);
   for (std::size_t b = 0; b < by_chance.size() && !cancelled(); ++b) {
     std::vector<double> permuted;
-    for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
+    for (const std::size_t w : reordered(drive_of, random_key(options.seed, kPlaceOrders + b)))
       permuted.push_back(squares[w]);
     for (const FilledDisc& disc : places.discs)
       by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
@@ -209,7 +210,7 @@ std::vector<double> sign_flip_significance(std::span<const DriveSums> groups, in
   std::vector<double> flipped(static_cast<std::size_t>(resamples), 0.0);
   for (std::size_t b = 0; b < flipped.size(); ++b) {
     if (cancelled()) return {};
-    const std::uint64_t key = random_key(seed, 1000 + b);
+    const std::uint64_t key = random_key(seed, kSignFlips + b);
     const auto sign = [key](std::size_t drive) { return random_uniform(key, drive) < 0.5 ? -1.0 : 1.0; };
     for (const DriveSums& drives : groups) flipped[b] = std::max(flipped[b], largest_t(drives, sign));
   }

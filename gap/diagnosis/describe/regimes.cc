@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/random.h"
+#include "gap/diagnosis/search/random_streams.h"
 
 namespace slipway::gap {
 namespace {
@@ -104,7 +105,7 @@ class ChannelRegimes {
     for (std::size_t b = 0; b < permutations; ++b) {
       if (cancelled()) return std::nullopt;
       scores.by_chance.push_back(
-          largest_of(in_order(looked(), reordered(drives, random_key(seed, 5000 + b)))));
+          largest_of(in_order(looked(), reordered(drives, random_key(seed, kSliceOrders + b)))));
     }
     return scores;
   }

@@ -43,7 +43,6 @@ class WorldTrial {
         world_(make_world({.seed = seed})),
         given_(problem_of(world_, rover)),
         progress_(progress) {
-    given_.seed = seed;
     given_.routes = options.routes;
     given_.risk.draws = options.planning_draws;
     given_.risk.seed = random_key(seed, kPlanning);
