@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,32 +19,6 @@
 #include "sim/rover/drive_command.h"
 
 namespace slipway::api {
-namespace {
-
-// What was probably meant by a place off the map; empty where nothing is likely.
-std::string likely_mistake(const dem::ElevationInfo& info, double x, double y) {
-  const dem::Extent map = info.geometry.extent();
-  if (map.contains(y, x)) return fmt::format("; x and y are swapped: the map has a place ({}, {}) m", y, x);
-  const dem::BodyDegrees degrees(info.crs_wkt, info.body);
-  const auto on_map = [&](double longitude, double latitude) -> std::optional<dem::MapPlace> {
-    if (std::abs(longitude) > 360.0 || std::abs(latitude) > 90.0) return std::nullopt;
-    const auto place = degrees.to_map({longitude, latitude});
-    return place && map.contains(place->x, place->y) ? place : std::nullopt;
-  };
-  constexpr const char* kAdvice =
-      "the map's place is ({:.3f}, {:.3f}) m, and the command line takes degrees with --lonlat";
-  if (const auto place = on_map(x, y))
-    return fmt::format(fmt::runtime(std::string("; these are longitude and latitude in degrees: ") + kAdvice),
-                       place->x, place->y);
-  if (const auto place = on_map(y, x))
-    return fmt::format(
-        fmt::runtime(std::string("; these are latitude and longitude in degrees, in this order: ") + kAdvice),
-        place->x, place->y);
-  return {};
-}
-
-}  // namespace
-
 RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults)
     : catalogue_(catalogue) {
   for (Fault& fault : reader_faults) faults_.emplace_back(ErrorCode::kInvalidRequest, std::move(fault));
@@ -108,7 +83,8 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
     add(ErrorCode::kOffMap, pointer,
         fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m{}", place.x_m,
                     place.y_m, map.west_m, map.east_m, map.south_m, map.north_m,
-                    likely_mistake(site_->info(), place.x_m, place.y_m)));
+                    dem::likely_mistake(site_->info().crs_wkt, site_->info().body, map,
+                                        {place.x_m, place.y_m}, false)));
     return;
   }
   const auto ground = site_->read_around(place.x_m, place.y_m, 0.0);
@@ -117,6 +93,23 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
   } else if (!(*ground)->surface(place.x_m, place.y_m)) {
     add(ErrorCode::kNoData, pointer,
         fmt::format("({}, {}) m has no elevation: the terrain is not known there", place.x_m, place.y_m));
+  }
+}
+
+void RequestCheck::zones(const std::vector<planner::Polygon>& zones, std::string_view pointer) {
+  if (site_ == nullptr || already_faulty(pointer)) return;
+  const dem::Extent map = site_->info().geometry.extent();
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& corner : zones[i]) box.extend(corner);
+    const Eigen::AlignedBox2d all(Eigen::Vector2d(map.west_m, map.south_m),
+                                  Eigen::Vector2d(map.east_m, map.north_m));
+    if (box.isEmpty() || box.intersects(all)) continue;
+    const Eigen::Vector2d corner = zones[i].front();
+    const std::string meant =
+        dem::likely_mistake(site_->info().crs_wkt, site_->info().body, map, {corner.x(), corner.y()}, false);
+    if (!meant.empty())
+      add(ErrorCode::kOffMap, fmt::format("{}/{}", pointer, i), fmt::format("lies off the map{}", meant));
   }
 }
 

@@ -28,6 +28,9 @@ class RequestCheck {
   void place(const planner::Waypoint& place, const std::string& pointer);
   // Places that follow each other on the way are not one place.
   void legs(const PlanRequest& request);
+  // Areas that lie wholly off the map, with another reading of whose corners they would not: swapped, or in
+  // degrees. Others may be of the ground around it.
+  void zones(const std::vector<planner::Polygon>& zones, std::string_view pointer);
   void drive(const DriveAssumptions& drive);
   // among_zones: the request has keep-outs or keep-ins.
   void crab(double crab_rad, bool among_zones);

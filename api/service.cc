@@ -32,6 +32,8 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
   for (std::size_t i = 0; i < request.path.size(); ++i)
     check.place(request.path[i], is_start ? "/start" : fmt::format("/path/{}", i));
   check.path_length(request.path);
+  check.zones(request.keep_out, "/keep_out");
+  check.zones(request.keep_in, "/keep_in");
   check.crab(request.manner.crab_rad, !request.keep_out.empty() || !request.keep_in.empty());
 }
 
@@ -119,6 +121,8 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
                    for (std::size_t i = 0; i < request.waypoints.size(); ++i)
                      check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
                    check.legs(request);
+                   check.zones(request.keep_out, "/keep_out");
+                   check.zones(request.keep_in, "/keep_in");
                    check.planners(request.planners, options_.planners);
                  });
 }
@@ -179,6 +183,8 @@ Result<MapRequest> Service::read_map(std::string_view json) const {
       json::read_map_request(json, options_.costs), [](const MapRequest& request, RequestCheck& check) {
         if (request.place)
           check.place(*request.place, request.kind == planner::MapKind::kCostToGo ? "/to" : "/from");
+        check.zones(request.keep_out, "/keep_out");
+        check.zones(request.keep_in, "/keep_in");
       });
 }
 

@@ -62,15 +62,19 @@ std::optional<std::string> wrong_separator(std::string_view header, char expecte
 
 CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,
                           std::vector<Fault>& faults) {
-  const std::vector<std::string_view> names = csv_cells(line.text);
+  return read_csv_header(csv_cells(line.text), line.number, file, known, faults);
+}
+
+CsvHeader read_csv_header(const std::vector<std::string_view>& names, std::size_t line, std::string_view file,
+                          const std::vector<std::string>& known, std::vector<Fault>& faults) {
   CsvHeader header{std::vector<std::optional<std::size_t>>(known.size()), names.size()};
   if (names.size() > kMaxColumns) {
-    faults.push_back({fmt::format("{}, line {}", file, line.number),
+    faults.push_back({fmt::format("{}, line {}", file, line),
                       fmt::format("{} columns, must be {} at most", names.size(), kMaxColumns)});
     return header;
   }
   for (std::size_t c = 0; c < names.size(); ++c) {
-    const std::string place = fmt::format("{}, line {}, column {}", file, line.number, c + 1);
+    const std::string place = fmt::format("{}, line {}, column {}", file, line, c + 1);
     const auto found = std::find(known.begin(), known.end(), names[c]);
     if (found == known.end()) {
       faults.push_back({place, unknown_name("column", names[c], known)});

@@ -38,6 +38,9 @@ struct CsvHeader {
 // Columns that are not known, or there twice, are faults of `file`; so are more than kMaxColumns, alone.
 CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,
                           std::vector<Fault>& faults);
+// The same of names that were cut already, in this line of the file.
+CsvHeader read_csv_header(const std::vector<std::string_view>& names, std::size_t line, std::string_view file,
+                          const std::vector<std::string>& known, std::vector<Fault>& faults);
 
 // Nothing where the whole cell is no finite number.
 std::optional<double> csv_number(std::string_view cell);

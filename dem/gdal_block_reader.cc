@@ -70,8 +70,8 @@ GdalBlockReader::~GdalBlockReader() = default;
 
 std::unique_ptr<GdalBlockReader> GdalBlockReader::of(const std::filesystem::path& path, GDALDataset& dataset,
                                                      const HeightEncoding& encoding, std::size_t max_bytes) {
-  const bool is_plain = encoding.is_float32 && !encoding.has_mask && !encoding.is_sparse &&
-                        encoding.scale == 1.0 && encoding.offset_m == 0.0;
+  const bool is_plain = encoding.is_float32 && !encoding.has_mask && encoding.alpha_band == 0 &&
+                        !encoding.is_sparse && encoding.scale == 1.0 && encoding.offset_m == 0.0;
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   int side = 0, rows = 0;
   band.GetBlockSize(&side, &rows);

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/angle.h"
+#include "dem/gdal_crs_parts.h"
 
 namespace slipway::dem {
 namespace {
@@ -21,16 +22,6 @@ struct CplFree {
   void operator()(char* text) const { CPLFree(text); }
 };
 using CplText = std::unique_ptr<char, CplFree>;
-
-std::string proj_string(const OGRSpatialReference& crs) {
-  char* text = nullptr;
-  const OGRErr failed = crs.exportToProj4(&text);
-  const CplText owned(text);
-  if (failed != OGRERR_NONE || text == nullptr) return {};
-  std::string answer(text);
-  while (!answer.empty() && answer.back() == ' ') answer.pop_back();
-  return answer;
-}
 
 // The axes of an ellipsoid as PROJ writes them: "+R=3396190" or "+a=... +b=...". The datum's own numbers,
 // never a datum's name: PROJ has no names for other worlds.
@@ -142,7 +133,7 @@ std::string without_axes(std::string proj) {
 tl::unexpected<Error> refuse_west_positive(const OGRSpatialReference& crs, const RasterCentre& centre,
                                            const std::string& file) {
   const std::string east_positive =
-      crs.IsGeographic() ? local_projection(crs, -centre.x, centre.y) : without_axes(proj_string(crs));
+      crs.IsGeographic() ? local_projection(crs, -centre.x, centre.y) : without_axes(proj_words(crs));
   return refuse(
       fmt::format(
           "{} is in \"{}\", a system with a west-positive axis (planetographic on most worlds), which "
@@ -155,13 +146,37 @@ tl::unexpected<Error> refuse_west_positive(const OGRSpatialReference& crs, const
           shell_word(file), shell_word(converted_name(file))));
 }
 
+// What a system without a place most likely is, by its name: GeoTIFF has no form for latitudes that are
+// counted at the centre of an ellipsoid, and keeps them as a local frame.
+std::string likely_system(const OGRSpatialReference& crs) {
+  const std::string_view name = crs.GetName();
+  if (name.find("Ocentric") == std::string_view::npos) return "It may be a local frame of a site.";
+  const char* const sphere = name.find("Mars") != std::string_view::npos   ? "3396190"
+                             : name.find("Moon") != std::string_view::npos ? "1737400"
+                                                                           : "RADIUS";
+  return fmt::format(
+      "Its name is that of planetocentric degrees, of which the file has kept no more: --crs '+proj=longlat "
+      "+R={} +no_defs' takes them as degrees on the sphere, where they keep their places.",
+      sphere);
+}
+
 std::string metre_version(const OGRSpatialReference& crs) {
   OGRSpatialReference metres(crs);
   metres.SetLinearUnitsAndUpdateParameters(SRS_UL_METER, 1.0);
-  return proj_string(metres);
+  return proj_words(metres);
 }
 
 }  // namespace
+
+std::string proj_words(const OGRSpatialReference& crs) {
+  char* text = nullptr;
+  const OGRErr failed = crs.exportToProj4(&text);
+  const CplText owned(text);
+  if (failed != OGRERR_NONE || text == nullptr) return {};
+  std::string answer(text);
+  while (!answer.empty() && answer.back() == ' ') answer.pop_back();
+  return answer;
+}
 
 std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg) {
   return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
@@ -234,8 +249,11 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
         warp_command(fmt::format("-t_srs {}", shell_word(local_projection(*crs, centre.x, centre.y))), file));
   }
   if (!crs->IsProjected()) {
-    return refuse(fmt::format("{} is in \"{}\", which is not a projected system.", file, crs->GetName()),
-                  warp_command(fmt::format("-t_srs {}", shell_word(local_projection(*crs, 0.0, 0.0))), file));
+    const std::string sentence = fmt::format(
+        "{} is in \"{}\", which says neither a projection nor degrees. State the system that it was made in, "
+        "in the file or with --crs. {}",
+        file, crs->GetName(), likely_system(*crs));
+    return fail(ErrorCode::kUnsupportedCrs, sentence, {{"", sentence}});
   }
   const char* unit = nullptr;
   const double metres_per_unit = crs->GetLinearUnits(&unit);
@@ -247,8 +265,25 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
   return {};
 }
 
+Result<void> check_reach(const OGRSpatialReference& crs, const Extent& extent, const std::string& file) {
+  if (crs.IsProjected() == 0) return {};
+  if (const auto fault = fault_of_scale(crs, file))
+    return fail(ErrorCode::kUnsupportedCrs, *fault, {{"", *fault}});
+  const RasterCentre centre{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
+  // Metres of the ground that a metre of the map may be: Mercator has the least at 89.7 degrees.
+  constexpr double kNone = 1e-6, kLeast = 0.005, kMost = 100.0;
+  const auto scale = GroundScale(crs).at(centre);
+  if (scale && scale->least > kNone && scale->most >= kLeast && scale->most <= kMost) return {};
+  const std::string sentence = fmt::format(
+      "{} is in \"{}\", in which the middle of the map, ({:.0f}, {:.0f}), is no place of the body: it has no "
+      "longitude and latitude. State the system that the map was made in, in the file or with --crs.",
+      file, crs.GetName(), centre.x, centre.y);
+  return fail(ErrorCode::kUnsupportedCrs, sentence, {{"", sentence}});
+}
+
 Result<void> check_true_lengths(const OGRSpatialReference& crs, const Extent& extent,
                                 const std::string& file) {
+  if (const auto reach = check_reach(crs, extent, file); !reach) return reach;
   const GroundScale scales(crs);
   const RasterCentre centre{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
   LocalScale worst;

@@ -22,6 +22,10 @@ struct RasterCentre {
 Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
                                      const std::string& file);
 
+// Checks that the middle of a projected map is a place of the body, and its scale one that a map can have. No
+// command mends it: the true system must be stated.
+Result<void> check_reach(const OGRSpatialReference& crs, const Extent& extent, const std::string& file);
+
 // Checks that lengths on the map are those of the ground, within kMaxScaleError, at the corners, the middles
 // of the edges and the centre of an extent. The error has the worst place and the command that would convert
 // `file`.
@@ -37,6 +41,8 @@ bool can_be_reprojected(const OGRSpatialReference* crs);
 std::unique_ptr<OGRSpatialReference> eastward_projection(const OGRSpatialReference& crs);
 // Whether x counts towards the west, by its axes or by its name.
 bool is_west_positive(const OGRSpatialReference& crs);
+// The system as PROJ writes it; empty where it can't.
+std::string proj_words(const OGRSpatialReference& crs);
 // A conformal system in metres around a place of the body in degrees, as PROJ writes it.
 std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg);
 // Longitude and latitude in degrees of a place in a projected system; nothing where it has none.

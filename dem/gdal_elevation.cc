@@ -13,6 +13,7 @@
 #include "dem/gdal_crs.h"
 #include "dem/gdal_heights.h"
 #include "dem/gdal_raster.h"
+#include "dem/gdal_raster_meaning.h"
 
 namespace slipway::dem {
 namespace {
@@ -61,12 +62,12 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
   GdalElevation(std::filesystem::path path, CheckedRaster raster, const HeightEncoding& encoding)
       : path_(std::move(path)),
         dataset_(std::move(raster.dataset)),
-        band_(*dataset_->GetRasterBand(1)),
+        system_(std::move(raster.system)),
+        band_(*dataset_->GetRasterBand(raster.band)),
         info_(std::move(raster.info)),
         encoding_(encoding),
         lengths_are_true_(info_.crs_wkt.empty() ||
-                          check_true_lengths(*dataset_->GetSpatialRef(), info_.geometry.extent(),
-                                             path_.filename().string())),
+                          check_true_lengths(*system_, info_.geometry.extent(), path_.filename().string())),
         blocks_(GdalBlockReader::of(path_, *dataset_, encoding)) {}
 
   const ElevationInfo& info() const override { return info_; }
@@ -222,7 +223,7 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
   Result<void> check_lengths(const Extent& extent) const {
     if (lengths_are_true_) return {};
     const std::lock_guard lock(mutex_);
-    return check_true_lengths(*dataset_->GetSpatialRef(), extent, path_.filename().string());
+    return check_true_lengths(*system_, extent, path_.filename().string());
   }
 
   Result<void> read(const CellWindow& window, float* heights, std::uint8_t* valid) const {
@@ -250,6 +251,7 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
 
   std::filesystem::path path_;
   GDALDatasetUniquePtr dataset_;
+  std::unique_ptr<OGRSpatialReference> system_;
   GDALRasterBand& band_;  // of dataset_
   ElevationInfo info_;
   HeightEncoding encoding_;
@@ -265,10 +267,15 @@ Result<std::shared_ptr<const ElevationSource>> open_elevation(const std::filesys
   const GdalSession session(path);
   Result<CheckedRaster> raster = open_checked_raster(path, session, placeless);
   if (!raster) return fail(std::move(raster.error()));
-  GDALRasterBand& band = *raster->dataset->GetRasterBand(1);
-  const HeightEncoding encoding = encoding_of(band);
-  const Result<void> metres = check_height_unit(band, encoding, path.filename().string());
-  if (!metres) return fail(metres.error());
+  const std::string file = path.filename().string();
+  const BandChoice band{raster->band, "", "", false};
+  const RasterMeaning meaning = meaning_of(*raster->dataset, band);
+  if (const auto sidecar = fault_of_sidecar(*raster->dataset))
+    return fail(ErrorCode::kUnreadableRaster, *sidecar);
+  if (const auto picture = fault_of_picture(*raster->dataset, band, file, !meaning.unit.empty()))
+    return fail(ErrorCode::kUnreadableRaster, *picture);
+  if (const auto metres = check_metres(meaning, file); !metres) return fail(metres.error());
+  const HeightEncoding& encoding = meaning.encoding;
   raster->info.scaled = encoding.scale != 1.0 || encoding.offset_m != 0.0;
   std::error_code ignored;
   return std::make_shared<const GdalElevation>(std::filesystem::canonical(path, ignored), std::move(*raster),

@@ -13,12 +13,29 @@
 namespace slipway::dem {
 namespace {
 
-// Whether the file lacks a block of the window.
-bool is_missing(GDALRasterBand& band, const CellWindow& window) {
+// Whether a window may have blocks that the file lacks. Zeros that a file system keeps as a hole are such
+// blocks for GDAL too.
+bool may_be_missing(GDALRasterBand& band, const CellWindow& window) {
   const int coverage = band.GetDataCoverageStatus(window.column, window.row, window.columns, window.rows,
                                                   GDAL_DATA_COVERAGE_STATUS_EMPTY, nullptr);
   return (coverage & GDAL_DATA_COVERAGE_STATUS_UNIMPLEMENTED) == 0 &&
          (coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0;
+}
+
+// Whether the file has no bytes for a block, which is counted in blocks.
+bool is_missing(GDALRasterBand& band, int block_row, int block_column) {
+  return band.GetMetadataItem(fmt::format("BLOCK_OFFSET_{}_{}", block_column, block_row).c_str(), "TIFF") ==
+         nullptr;
+}
+
+bool is_sparse(GDALRasterBand& band) {
+  if (!may_be_missing(band, {0, 0, band.GetYSize(), band.GetXSize()})) return false;
+  int width = 0, height = 0;
+  band.GetBlockSize(&width, &height);
+  for (int row = 0; row < (band.GetYSize() - 1) / height + 1; ++row)
+    for (int column = 0; column < (band.GetXSize() - 1) / width + 1; ++column)
+      if (is_missing(band, row, column)) return true;
+  return false;
 }
 
 // GDAL gives a block that the file does not hold as zeros.
@@ -33,7 +50,7 @@ void mask_missing_blocks(GDALRasterBand& band, const CellWindow& window, std::ui
                 bottom = static_cast<int>(std::min(row + height, last_row)),
                 left = static_cast<int>(std::max<std::int64_t>(column, window.column)),
                 right = static_cast<int>(std::min(column + width, last_column));
-      if (!is_missing(band, {top, left, bottom - top, right - left})) continue;
+      if (!is_missing(band, static_cast<int>(row / height), static_cast<int>(column / width))) continue;
       for (int r = top; r < bottom; ++r)
         std::fill_n(valid +
                         static_cast<std::size_t>(r - window.row) * static_cast<std::size_t>(window.columns) +
@@ -43,7 +60,28 @@ void mask_missing_blocks(GDALRasterBand& band, const CellWindow& window, std::ui
   }
 }
 
+// GDAL takes an alpha band of 8 or 16 bits for a mask, and only where it is the second or fourth of all.
+bool mask_transparent(GDALRasterBand& band, int alpha, const CellWindow& window, std::uint8_t* valid) {
+  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+  std::vector<double> opacity(cells);
+  GDALDataset* const dataset = band.GetDataset();
+  if (dataset == nullptr || dataset->GetRasterCount() < alpha ||
+      dataset->GetRasterBand(alpha)->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                              opacity.data(), window.columns, window.rows, GDT_Float64, 0, 0,
+                                              nullptr) != CE_None)
+    return false;
+  for (std::size_t i = 0; i < cells; ++i)
+    if (!(opacity[i] > 0.0)) valid[i] = 0;
+  return true;
+}
+
 }  // namespace
+
+int alpha_band(GDALDataset& dataset) {
+  for (int band = dataset.GetRasterCount(); band > 0; --band)
+    if (dataset.GetRasterBand(band)->GetColorInterpretation() == GCI_AlphaBand) return band;
+  return 0;
+}
 
 HeightEncoding encoding_of(GDALRasterBand& band) {
   HeightEncoding encoding;
@@ -54,13 +92,18 @@ HeightEncoding encoding_of(GDALRasterBand& band) {
   encoding.has_nodata = given != 0;
   encoding.nodata = static_cast<float>(encoding.wide_nodata);
   encoding.is_float32 = band.GetRasterDataType() == GDT_Float32;
-  encoding.is_sparse = is_missing(band, {0, 0, band.GetYSize(), band.GetXSize()});
-  encoding.has_mask = (band.GetMaskFlags() & GMF_PER_DATASET) != 0;
+  encoding.is_sparse = is_sparse(band);
+  const int mask = band.GetMaskFlags();
+  encoding.has_mask = (mask & GMF_ALL_VALID) == 0 && mask != GMF_NODATA;
+  if (band.GetDataset() != nullptr) encoding.alpha_band = alpha_band(*band.GetDataset());
   return encoding;
 }
 
 std::optional<double> metres_of_unit(std::string unit) {
-  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) {
+    return c == '_' || c == '-' ? ' ' : static_cast<char>(std::tolower(c));
+  });
+  constexpr double kSurveyFoot = 1200.0 / 3937.0;
   constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1.0},
                                                             {"m", 1.0},
                                                             {"metre", 1.0},
@@ -70,40 +113,52 @@ std::optional<double> metres_of_unit(std::string unit) {
                                                             {"ft", 0.3048},
                                                             {"foot", 0.3048},
                                                             {"feet", 0.3048},
-                                                            {"us-ft", 1200.0 / 3937.0},
-                                                            {"us survey foot", 1200.0 / 3937.0},
-                                                            {"ftus", 1200.0 / 3937.0},
+                                                            {"international foot", 0.3048},
+                                                            {"ifoot", 0.3048},
+                                                            {"international feet", 0.3048},
+                                                            {"yd", 0.9144},
+                                                            {"yard", 0.9144},
+                                                            {"us ft", kSurveyFoot},
+                                                            {"ftus", kSurveyFoot},
+                                                            {"us survey foot", kSurveyFoot},
+                                                            {"us survey feet", kSurveyFoot},
+                                                            {"us foot", kSurveyFoot},
+                                                            {"us feet", kSurveyFoot},
+                                                            {"foot us", kSurveyFoot},
+                                                            {"u.s. survey foot", kSurveyFoot},
+                                                            {"survey foot", kSurveyFoot},
+                                                            {"u.s. survey feet", kSurveyFoot},
                                                             {"km", 1000.0},
                                                             {"kilometre", 1000.0},
                                                             {"kilometer", 1000.0},
                                                             {"kilometres", 1000.0},
                                                             {"kilometers", 1000.0},
                                                             {"dm", 0.1},
+                                                            {"decimetre", 0.1},
+                                                            {"decimeter", 0.1},
+                                                            {"decimetres", 0.1},
+                                                            {"decimeters", 0.1},
                                                             {"cm", 0.01},
-                                                            {"mm", 0.001}};
+                                                            {"centimetre", 0.01},
+                                                            {"centimeter", 0.01},
+                                                            {"centimetres", 0.01},
+                                                            {"centimeters", 0.01},
+                                                            {"mm", 0.001},
+                                                            {"millimetre", 0.001},
+                                                            {"millimeter", 0.001}};
   for (const auto& [name, metres] : kUnits)
     if (unit == name) return metres;
   return std::nullopt;
 }
 
-Result<void> check_height_unit(GDALRasterBand& band, const HeightEncoding& encoding,
-                               const std::string& file) {
-  const std::optional<double> metres = metres_of_unit(band.GetUnitType());
-  if (metres == 1.0) {
-    if (std::isfinite(encoding.scale) && encoding.scale != 0.0 && std::isfinite(encoding.offset_m)) return {};
-    return fail(
-        ErrorCode::kUnreadableRaster,
-        fmt::format("{} has heights of {} * stored + {}, which are none. Convert it with: gdal_translate "
-                    "-a_scale 1 -a_offset 0 {} {}, with the true scale and offset.",
-                    file, encoding.scale, encoding.offset_m, shell_word(file),
-                    shell_word(converted_name(file))));
-  }
-  return fail(ErrorCode::kUnreadableRaster,
-              fmt::format("{} has heights in \"{}\", must be metres. Convert it with: gdal_calc.py -A {} "
-                          "--calc='A*{}' --type=Float32 --outfile={}{}.",
-                          file, band.GetUnitType(), shell_word(file), metres.value_or(0.3048),
-                          shell_word(converted_name(file)),
-                          metres ? "" : ", with the factor of that unit (0.3048 for feet)"));
+Result<void> check_scale(const HeightEncoding& encoding, const std::string& file) {
+  if (std::isfinite(encoding.scale) && encoding.scale != 0.0 && std::isfinite(encoding.offset_m)) return {};
+  return fail(
+      ErrorCode::kUnreadableRaster,
+      fmt::format("{} has heights of {} * stored + {}, which are none. Convert it with: gdal_translate "
+                  "-a_scale 1 -a_offset 0 {} {}, with the true scale and offset.",
+                  file, encoding.scale, encoding.offset_m, shell_word(file),
+                  shell_word(converted_name(file))));
 }
 
 bool read_heights(GDALRasterBand& band, const HeightEncoding& encoding, const CellWindow& window,
@@ -120,6 +175,7 @@ bool read_heights(GDALRasterBand& band, const HeightEncoding& encoding, const Ce
                                    window.columns, window.rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
     return false;
   }
+  if (encoding.alpha_band > 0 && !mask_transparent(band, encoding.alpha_band, window, valid)) return false;
   if (encoding.is_sparse) mask_missing_blocks(band, window, valid);
   for (std::size_t i = 0; i < cells; ++i) {
     const auto height = static_cast<float>(encoding.scale * stored[i] + encoding.offset_m);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "dem/gdal_body_degrees.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -43,6 +45,8 @@ Result<void> warp_raster(GDALDataset& source, const std::filesystem::path& out,
                          Progress& progress, const char* stage) {
   CPLStringList words;
   for (const std::string& word : options) words.AddString(word.c_str());
+  for (const std::string& word : warp_source(source)) words.AddString(word.c_str());
+  words.AddString("-novshift");  // cells keep their numbers, whatever grids of geoids the machine has
   const std::unique_ptr<GDALWarpAppOptions, FreeWarpOptions> prepared(
       GDALWarpAppOptionsNew(words.List(), nullptr));
   if (!prepared) return unwritable(out, session.complaints());

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "dem/gdal_crs.h"
+#include "dem/gdal_crs_parts.h"
+#include "dem/gdal_heights.h"
 
 namespace slipway::dem {
 namespace {
@@ -45,9 +47,15 @@ Result<fs::path> regular_file(const fs::path& path) {
   return absolute;
 }
 
-void check_band(GDALDataset& dataset, const std::string& file, Refusals& refusals) {
-  const int bands = dataset.GetRasterCount();
-  if (bands != 1) {
+// The number of bands that hold something, and the first of them.
+std::pair<int, int> data_bands(GDALDataset& dataset) {
+  const int alpha = alpha_band(dataset);
+  return {dataset.GetRasterCount() - (alpha != 0 ? 1 : 0), alpha == 1 ? 2 : 1};
+}
+
+void check_band(GDALDataset& dataset, const std::string& file, int chosen, Refusals& refusals) {
+  const auto [bands, first] = data_bands(dataset);
+  if (chosen == 0 && bands != 1) {
     refusals.add(fmt::format("{} has {} bands, must be 1. Convert it with: gdal_translate -b 1 {} {}", file,
                              bands, shell_word(file), shell_word(converted_name(file))),
                  bands > 1);
@@ -57,7 +65,7 @@ void check_band(GDALDataset& dataset, const std::string& file, Refusals& refusal
                              dataset.GetRasterYSize(), dataset.GetRasterXSize()));
   }
   if (bands < 1) return;
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  GDALRasterBand& band = *dataset.GetRasterBand(chosen != 0 ? chosen : first);
   const GDALDataType type = band.GetRasterDataType();
   if (GDALDataTypeIsComplex(type) != 0) {
     refusals.add(
@@ -132,10 +140,17 @@ std::string describe(const CellWindow& window) {
 Result<GDALDatasetUniquePtr> open_raster(const fs::path& path, const GdalSession& session) {
   const Result<fs::path> absolute = regular_file(path);
   if (!absolute) return fail(absolute.error());
+  const SidecarReading sidecars(true);
   GDALDatasetUniquePtr dataset(GDALDataset::Open(absolute->c_str(),
                                                  GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                                  allowed_raster_drivers(), nullptr, nullptr));
-  if (dataset) return dataset;
+  if (dataset) {
+    // GeoTIFF looks for its sidecar when it is first asked for what may be in it.
+    std::array<double, 6> grid{};
+    dataset->GetGeoTransform(grid.data());
+    if (dataset->GetRasterCount() > 0) dataset->GetRasterBand(1)->GetNoDataValue();
+    return dataset;
+  }
   return fail(
       ErrorCode::kUnreadableRaster,
       fmt::format("{} is not a readable raster of a supported format (GeoTIFF, ASCII grid, PDS, PDS4, "
@@ -144,14 +159,15 @@ Result<GDALDatasetUniquePtr> open_raster(const fs::path& path, const GdalSession
 }
 
 std::vector<RasterFault> faults_of(GDALDataset& dataset, const OGRSpatialReference* crs,
-                                   const std::string& file, PlacelessRaster placeless) {
+                                   const std::string& file, PlacelessRaster placeless, int band) {
   Refusals refusals;
-  check_band(dataset, file, refusals);
+  check_band(dataset, file, band, refusals);
   const std::optional<GeoTransform> grid = check_grid(dataset, file, refusals);
   if (placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs)) return refusals.take();
+  const auto system = horizontal_part(crs);
   const Result<void> metric =
-      check_metric_projection(crs, grid ? centre_of(dataset, *grid) : RasterCentre{}, file);
-  if (!metric) refusals.add(metric.error(), can_be_reprojected(crs));
+      check_metric_projection(system.get(), grid ? centre_of(dataset, *grid) : RasterCentre{}, file);
+  if (!metric) refusals.add(metric.error(), can_be_reprojected(system.get()));
   return refusals.take();
 }
 
@@ -170,18 +186,23 @@ Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSessio
   if (!opened) return fail(opened.error());
   CheckedRaster raster;
   raster.dataset = std::move(*opened);
-  const OGRSpatialReference* const crs = raster.dataset->GetSpatialRef();
+  raster.system = system_of(*raster.dataset);
+  const OGRSpatialReference* const crs = raster.system.get();
   const auto faults = faults_of(*raster.dataset, crs, path.filename().string(), placeless);
   if (!faults.empty()) return fail(error_of(faults));
 
   GeoTransform grid{};
   raster.dataset->GetGeoTransform(grid.data());
+  raster.band = data_bands(*raster.dataset).second;
   raster.info.geometry = grid_geometry(*raster.dataset, grid);
-  raster.info.data_type = GDALGetDataTypeName(raster.dataset->GetRasterBand(1)->GetRasterDataType());
+  raster.info.data_type =
+      GDALGetDataTypeName(raster.dataset->GetRasterBand(raster.band)->GetRasterDataType());
   if (placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs)) {
     raster.info.crs_name = "local frame";
     raster.info.body = "other";
   } else {
+    const auto reach = check_reach(*crs, raster.info.geometry.extent(), path.filename().string());
+    if (!reach) return fail(reach.error());
     describe_crs(*crs, raster.info);
   }
   return raster;

@@ -3,6 +3,7 @@
 #include <gdal_priv.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace slipway::dem {
 struct CheckedRaster {
   GDALDatasetUniquePtr dataset;
   ElevationInfo info;
+  std::unique_ptr<OGRSpatialReference> system;  // that places its cells, see system_of(); none: nullptr
+  int band = 1;                                 // the only one beside opacity
 };
 
 // A reason why a raster can't be used as it is.
@@ -25,19 +28,21 @@ struct RasterFault {
   bool mendable = false;  // an import can mend it
 };
 
-// Opens a regular file with an allowed driver, read-only. Errors: unreadable_raster.
+// Opens a regular file with an allowed driver, read-only, with what the sidecars NAME.aux.xml, NAME.msk and
+// NAME.ovr beside it say. Errors: unreadable_raster.
 Result<GDALDatasetUniquePtr> open_raster(const std::filesystem::path& path, const GdalSession& session);
 
-// All that is wrong with a raster in this coordinate reference system, as far as no cell needs to be read.
+// All that is wrong with a raster in this coordinate reference system, as far as no cell needs to be read. Of
+// the system its horizontal part counts. band: the one that was chosen; 0: there must be one beside opacity.
 std::vector<RasterFault> faults_of(GDALDataset& dataset, const OGRSpatialReference* crs,
-                                   const std::string& file, PlacelessRaster placeless);
+                                   const std::string& file, PlacelessRaster placeless, int band = 0);
 // The faults, of which there is at least one, as one error.
 Error error_of(const std::vector<RasterFault>& faults);
 
 // Opens a regular file with an allowed driver, read-only, and refuses what can't be used: more or fewer than
-// one band, complex numbers, a grid that is rotated, south-up or without a place, another CRS than a metric
-// projection, blocks that would cost more memory than kMaxBlockBytes to read one cell. All reasons are
-// reported together. A placeless raster that is let through has an empty crs_wkt.
+// one band beside one of opacity, complex numbers, a grid that is rotated, south-up or without a place,
+// another CRS than a metric projection, blocks that would cost more memory than kMaxBlockBytes to read one
+// cell. All reasons are reported together. A placeless raster that is let through has an empty crs_wkt.
 Result<CheckedRaster> open_checked_raster(const std::filesystem::path& path, const GdalSession& session,
                                           PlacelessRaster placeless);
 

@@ -23,8 +23,7 @@ constexpr std::array<const char*, 9> kDrivers{"GTiff", "AAIGrid", "PDS4", "ISIS3
 
 void prepare_process() {
   CPLSetErrorHandler(CPLQuietErrorHandler);
-  CPLSetConfigOption("GDAL_PAM_ENABLED",
-                     "NO");  // no .aux.xml: it could change georeferencing and is written, too
+  CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // no .aux.xml is written; see SidecarReading
   CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
   CPLSetConfigOption("OGR_GEOMETRY_ACCEPT_UNCLOSED_RING", "YES");  // unclosed rings are found and named by us
   GDALSetCacheMax64(kBlockCacheBytes);
@@ -82,6 +81,14 @@ void CPL_STDCALL GdalSession::gather(CPLErr severity, CPLErrorNum /*number*/, co
 
 std::string GdalSession::complaints() const {
   return fmt::format("{}", fmt::join(complaints_, "; "));
+}
+
+SidecarReading::SidecarReading(bool reads) {
+  CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", reads ? "YES" : "NO");
+}
+
+SidecarReading::~SidecarReading() {
+  CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
 }
 
 const char* const* allowed_raster_drivers() {

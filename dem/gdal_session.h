@@ -35,6 +35,16 @@ class GdalSession {
   std::unique_ptr<FolderAdmission> admission_;
 };
 
+// While it lives, rasters that this thread opens are read with what the file NAME.aux.xml beside them says,
+// or without it.
+class SidecarReading {
+ public:
+  explicit SidecarReading(bool reads);
+  ~SidecarReading();
+  SidecarReading(const SidecarReading&) = delete;
+  SidecarReading& operator=(const SidecarReading&) = delete;
+};
+
 // The raster drivers a file may be read with, by GDAL's short names, ended by a null pointer.
 const char* const* allowed_raster_drivers();
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "dem/gdal_body_degrees.h"
 #include "dem/gdal_crs.h"
 #include "dem/gdal_raster.h"
 #include "dem/soil_legend.h"
@@ -40,10 +41,22 @@ bool same_place(const OGRSpatialReference& crs, const ElevationInfo& ground, con
   const std::array<double, 4> x_before = x;
   const std::array<double, 4> y_before = y;
   if (transformation->Transform(4, x.data(), y.data()) == FALSE) return false;
+  const std::optional<double> turn = turn_of(map);
   for (std::size_t i = 0; i < 4; ++i) {
-    if (!(std::hypot(x[i] - x_before[i], y[i] - y_before[i]) < 0.01 * cell_m)) return false;
+    const double off = turn ? std::remainder(x[i] - x_before[i], *turn) : x[i] - x_before[i];
+    if (!(std::hypot(off, y[i] - y_before[i]) < 0.01 * cell_m)) return false;
   }
   return true;
+}
+
+// The geometry in the x of the elevation's map, where the raster's is whole turns of longitude from it.
+GridGeometry on_sheet_of(const ElevationInfo& ground, GridGeometry geometry) {
+  OGRSpatialReference map;
+  if (ground.crs_wkt.empty() || map.importFromWkt(ground.crs_wkt.c_str()) != OGRERR_NONE) return geometry;
+  const Extent own = geometry.extent(), wanted = ground.geometry.extent();
+  const double apart = 0.5 * (wanted.west_m + wanted.east_m - own.west_m - own.east_m);
+  if (const auto turn = turn_of(map)) geometry.west_m += std::round(apart / *turn) * *turn;
+  return geometry;
 }
 
 // The classes of the window, and which cells have one.
@@ -97,7 +110,7 @@ bool holds_classes(GDALRasterBand& band) {
 
 Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo& ground,
                                 const std::string& file) {
-  GDALRasterBand& band = *raster.dataset->GetRasterBand(1);
+  GDALRasterBand& band = *raster.dataset->GetRasterBand(raster.band);
   if (!is_integer(band.GetRasterDataType())) {
     return fail(
         ErrorCode::kUnreadableRaster,
@@ -114,7 +127,7 @@ Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo
         fmt::format("{} is in \"{}\", the elevation in a local frame; both must be in the same system.", file,
                     raster.info.crs_name));
   }
-  if (!same_place(*raster.dataset->GetSpatialRef(), ground, geometry.extent(),
+  if (!same_place(*raster.system, ground, geometry.extent(),
                   std::min(geometry.cell_x_m, geometry.cell_y_m))) {
     return fail(
         ErrorCode::kUnsupportedCrs,
@@ -140,9 +153,10 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (!raster) return fail(raster.error());
   const Result<void> usable = check_class_raster(*raster, ground, file);
   if (!usable) return fail(usable.error());
-  const std::optional<CellWindow> window = raster->info.geometry.window(extent);
+  const GridGeometry geometry = on_sheet_of(ground, raster->info.geometry);
+  const std::optional<CellWindow> window = geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, fmt::format("{} does not meet the extent asked for.", file));
-  GridGeometry grid = raster->info.geometry.sub(*window);
+  GridGeometry grid = geometry.sub(*window);
   // Its cells may be larger than the elevation's, or smaller.
   const auto thinned = [&](int cells, double ratio) {
     const int every = step == 1 ? 1 : std::max(1, static_cast<int>(step * ratio));
@@ -153,7 +167,7 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   grid.cell_x_m *= static_cast<double>(window->columns) / grid.columns;
   grid.cell_y_m *= static_cast<double>(window->rows) / grid.rows;
   std::optional<Classes> read =
-      read_classes(*raster->dataset->GetRasterBand(1), *window, grid.rows, grid.columns);
+      read_classes(*raster->dataset->GetRasterBand(raster->band), *window, grid.rows, grid.columns);
   if (!read) {
     return fail(ErrorCode::kUnreadableRaster, fmt::format("{} is damaged: {} could not be read ({}).", file,
                                                           describe(*window), session.complaints()));

@@ -12,4 +12,14 @@ namespace slipway::dem {
 std::vector<Fault> repeated_values(const std::vector<SoilClass>& legend);
 std::vector<Fault> repeated_labels(const std::vector<SoilClass>& legend);
 
+// How much of a map the rows of its legend cover, for a person to check.
+struct SoilCover {
+  std::vector<std::string> lines;     // "unit plain covers 12.3 % of the map"
+  std::vector<std::string> warnings;  // of rows that cover nothing or everything
+  bool is_empty = true;               // nothing of the map is covered
+};
+
+// `word`: what a row of the legend is called, "unit" or "class". ground: of the elevation.
+SoilCover cover_of(const SoilMap& map, const Extent& ground, const std::string& word);
+
 }  // namespace slipway::dem

@@ -41,6 +41,8 @@ class SoilMap {
   std::optional<int> class_at(double x_m, double y_m) const;
   // Index into soils(); empty on unknown ground.
   std::optional<std::size_t> soil_at(double x_m, double y_m) const;
+  // How many cells have the class of each row of the legend, in its order.
+  std::vector<std::size_t> cells_of_rows() const;
   // The share of the map's cells that are unknown ground, in [0, 1].
   double unknown_fraction() const;
 
@@ -73,7 +75,10 @@ enum class PolygonCoordinates {
   kMap,                // metres in the elevation's CRS
 };
 
-// Burns polygons of a GeoJSON file onto a grid of the elevation's cells over the extent, or one of whole
+// Whether a file holds polygons of units, by its ending in any case: .geojson, .json, .shp or .gpkg.
+bool is_unit_file(const std::filesystem::path& path);
+
+// Burns polygons of such a file onto a grid of the elevation's cells over the extent, or one of whole
 // numbers of them, at least `step`, that has at most kMaxWindowCells; a cell takes the class of the last
 // polygon that holds its centre. property names the label that the legend is matched by. A label that the
 // legend does not have is unknown ground. Faults name the feature: "/features/12/geometry".

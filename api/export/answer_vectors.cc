@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "api/chart/vector_styles.h"
+#include "api/export/station_csv.h"
 #include "api/json/faults.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
-#include "api/export/station_csv.h"
 #include "core/csv_cells.h"
 #include "dem/body_degrees.h"
 #include "dem/vector_file.h"
@@ -206,7 +206,7 @@ Result<std::vector<VectorLayer>> layers_of(std::string_view answer, std::string_
 
 // Turns every point to degrees. Errors: unsupported_crs.
 Result<void> turn_to_degrees(std::vector<VectorLayer>& layers, const AnswerMap& map) {
-  const dem::BodyDegrees degrees(map.crs_wkt, map.body);
+  const dem::BodyDegrees degrees(map.crs_wkt, map.body, map.extent);
   for (VectorLayer& layer : layers) {
     for (VectorFeature& feature : layer.features) {
       for (auto& point : feature.points) {
@@ -285,13 +285,23 @@ void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coord
 
 }  // namespace
 
+namespace {
+
+dem::Extent extent_of(const JsonValue& site) {
+  const JsonValue& extent = at(site, "extent");
+  return {number(extent, "west_m"), number(extent, "south_m"), number(extent, "east_m"),
+          number(extent, "north_m")};
+}
+
+}  // namespace
+
 Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view terrain) {
   const auto document = read_answer_document(terrains);
   if (!document) return fail(document.error());
   for (const JsonValue& site : at(*document, "terrains").elements)
     if (text(site, "name") == terrain)
       return AnswerMap{text(site, "crs_name"), text(site, "crs_wkt"), text(site, "body"),
-                       number(site, "semi_major_axis_m")};
+                       number(site, "semi_major_axis_m"), extent_of(site)};
   return fail(ErrorCode::kNotFound, fmt::format("There is no terrain {}.", in_quotes(terrain)));
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/result.h"
+#include "dem/grid_geometry.h"
 #include "dem/vector_file.h"
 
 // Routes and stations of an answer as vectors for GIS tools.
@@ -15,6 +17,7 @@ struct AnswerMap {
   std::string crs_name, crs_wkt;  // crs_wkt is empty in a local frame
   std::string body;
   double semi_major_axis_m = 0.0;
+  std::optional<dem::Extent> extent = {};  // where longitudes go on beyond 180 deg, it says which x is meant
 };
 
 // The map of a terrain, from the document that GET /v1/terrains answers. Errors: not_found.

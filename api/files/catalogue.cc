@@ -138,6 +138,7 @@ void load_rules(const fs::path& data, Catalogue& catalogue) {
   std::error_code error;
   if (!fs::exists(data / "rules", error)) return;
   for (const fs::path& path : entries_of(data / "rules")) {
+    if (path.extension() != ".json") continue;
     FileFaults faults("rules", path.stem().string(), "rules/" + path.filename().string(), catalogue);
     const auto bytes = read_data_file(path);
     auto rules = bytes ? json::read_rules_file(*bytes) : Result<RuleSet>(fail(bytes.error()));

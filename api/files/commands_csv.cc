@@ -8,7 +8,7 @@
 
 #include "api/json/faults.h"
 #include "core/angle.h"
-#include "core/csv_cells.h"
+#include "core/text_table.h"
 
 namespace slipway::api {
 namespace {
@@ -27,21 +27,20 @@ class Reader {
   explicit Reader(std::string_view file) : file_(file) {}
 
   Result<CommandsTable> read(std::string_view bytes) {
-    std::optional<CsvHeader> header;
-    for (const CsvLine& line : csv_lines(bytes)) {
-      if (csv_cells(line.text).front().starts_with('#')) {
-        read_comment(line);
-      } else if (!header) {
-        header = read_csv_header(line, file_, kColumns, faults_);
-        for (std::size_t k = 0; k < kColumns.size(); ++k)
-          if (!header->places[k]) fault(line, fmt::format("there is no column {}", kColumns[k]));
-      } else if (faults_.size() < kMaxFaults) {
-        read_row(line, *header);
-      }
+    auto text = read_text_table(bytes, file_, {.comment = '#'});
+    if (!text) return fail(std::move(text.error()));
+    text_ = *std::move(text);
+    for (const CsvLine& line : text_.comments()) read_comment(line);
+    if (text_.names().empty()) {
+      faults_.push_back({std::string(file_), "there is no row command,value,radius_m"});
+    } else {
+      header_ = find_columns(text_, file_, kColumns, faults_);
+      for (std::size_t k = 0; k < kColumns.size(); ++k)
+        if (!header_.places[k]) fault(text_.header_line(), fmt::format("there is no column {}", kColumns[k]));
+      for (std::size_t k = 0; k < text_.rows() && faults_.size() < kMaxFaults; ++k) read_row(k);
+      if (table_.commands.empty() && faults_.empty())
+        faults_.push_back({std::string(file_), "there must be a command"});
     }
-    if (!header) faults_.push_back({std::string(file_), "there is no row command,value,radius_m"});
-    if (header && table_.commands.empty() && faults_.empty())
-      faults_.push_back({std::string(file_), "there must be a command"});
     for (std::size_t k = 0; k < kStart.size(); ++k)
       if (!start_[k])
         faults_.push_back({std::string(file_), fmt::format("there is no line \"# {}: ...\"", kStart[k])});
@@ -54,15 +53,15 @@ class Reader {
  private:
   static constexpr std::array<std::string_view, 3> kStart{"start_x_m", "start_y_m", "start_yaw_deg"};
 
-  void fault(const CsvLine& line, std::string message, std::optional<std::size_t> column = std::nullopt) {
-    std::string place = fmt::format("{}, line {}", file_, line.number);
+  void fault(std::size_t line, std::string message, std::optional<std::size_t> column = std::nullopt) {
+    std::string place = fmt::format("{}, line {}", file_, line);
     if (column) place += fmt::format(", column {}", *column + 1);
     faults_.push_back({std::move(place), std::move(message)});
   }
 
-  std::optional<double> number(const CsvLine& line, std::string_view cell, std::string_view name,
+  std::optional<double> number(std::size_t line, std::string_view cell, std::string_view name,
                                const Range& range, std::optional<std::size_t> column = std::nullopt) {
-    const auto value = csv_number(cell);
+    const auto value = text_.number(cell);
     if (!value)
       fault(line, fmt::format("{} = {}, must be a number", name, in_quotes(cell)), column);
     else if (*value < range.lowest || *value > range.highest)
@@ -86,39 +85,42 @@ class Reader {
     for (std::size_t k = 0; k < kStart.size(); ++k)
       if (key == kStart[k])
         // Where it is no number that is the fault, and not that it is missing.
-        start_[k] = number(line, value, key, k == 2 ? kTurn_deg : kMap_m).value_or(0.0);
+        start_[k] = number(line.number, value, key, k == 2 ? kTurn_deg : kMap_m).value_or(0.0);
   }
 
-  void read_row(const CsvLine& line, const CsvHeader& header) {
-    const std::vector<std::string_view> cells = csv_cells(line.text);
-    if (cells.size() != header.width)
-      return fault(line, fmt::format("{} cells, must be {} as in the header", cells.size(), header.width));
-    for (const auto& place : header.places)
+  void read_row(std::size_t index) {
+    const std::size_t line = text_.line(index);
+    const std::vector<std::string> cells = text_.cells(index);
+    if (cells.size() != header_.width)
+      return fault(line, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
+    for (const auto& place : header_.places)
       if (!place) return;  // said of the header
-    const auto cell = [&](Column column) { return cells[*header.places[column]]; };
-    const std::string_view command = cell(kCommand);
+    const auto cell = [&](Column column) -> const std::string& { return cells[*header_.places[column]]; };
+    const std::string& command = cell(kCommand);
     const bool arcs = command == "arc", turns = command == "turn";
     if (!arcs && !turns && command != "drive")
       return fault(line, fmt::format("command = {}, must be drive, arc or turn", in_quotes(command)),
-                   header.places[kCommand]);
+                   header_.places[kCommand]);
     planner::DriveStep step;
     const auto value =
-        number(line, cell(kValue), "value", turns ? kTurn_deg : kLength_m, header.places[kValue]);
-    if (value && !turns && *value <= 0.0) fault(line, "value must be over 0", header.places[kValue]);
+        number(line, cell(kValue), "value", turns ? kTurn_deg : kLength_m, header_.places[kValue]);
+    if (value && !turns && *value <= 0.0) fault(line, "value must be over 0", header_.places[kValue]);
     (turns ? step.turn_rad : step.drive_m) = turns ? rad_from_deg(value.value_or(0.0)) : value.value_or(1.0);
     if (arcs)
       step.radius_m =
-          number(line, cell(kRadius), "radius_m", kRadius_m, header.places[kRadius]).value_or(1.0);
-    else if (!cell(kRadius).empty())
-      fault(line, fmt::format("a {} has no radius_m", command), header.places[kRadius]);
+          number(line, cell(kRadius), "radius_m", kRadius_m, header_.places[kRadius]).value_or(1.0);
+    else if (!is_missing_cell(cell(kRadius)))
+      fault(line, fmt::format("a {} has no radius_m", command), header_.places[kRadius]);
     if (arcs && std::abs(step.radius_m) < 0.01)
       fault(line, "radius_m must be 0.01 m or more to the left, or as much below 0 to the right",
-            header.places[kRadius]);
+            header_.places[kRadius]);
     table_.commands.push_back(step);
-    table_.lines.push_back(line.number);
+    table_.lines.push_back(line);
   }
 
   std::string_view file_;
+  TextTable text_;
+  CsvHeader header_;
   CommandsTable table_;
   std::array<std::optional<double>, 3> start_;
   std::vector<Fault> faults_;

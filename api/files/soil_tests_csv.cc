@@ -9,7 +9,7 @@
 
 #include "api/json/faults.h"
 #include "core/angle.h"
-#include "core/csv_cells.h"
+#include "core/text_table.h"
 
 namespace slipway::api {
 namespace {
@@ -65,20 +65,23 @@ class Table {
   };
 
   std::vector<Row> read(std::string_view text) {
-    const std::vector<CsvLine> lines = csv_lines(text);
     std::vector<Row> rows;
-    if (lines.empty()) {
+    auto read = read_text_table(text, file_);
+    if (!read) {
+      faults_ = std::move(read.error().faults);
+      return rows;
+    }
+    text_ = *std::move(read);
+    if (text_.names().empty()) {
       faults_.push_back({std::string(file_), "the file is empty"});
-      return rows;
-    }
-    if (lines.size() - 1 > kMaxRows) {
+    } else if (text_.rows() > kMaxRows) {
       faults_.push_back(
-          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMaxRows)});
-      return rows;
+          {std::string(file_), fmt::format("{} rows, must be {} at most", text_.rows(), kMaxRows)});
+    } else {
+      read_header();
+      for (std::size_t i = 0; i < text_.rows(); ++i) rows.push_back(read_row(i));
+      if (text_.rows() == 0) faults_.push_back({std::string(file_), "there are no rows under the header"});
     }
-    read_header(lines.front());
-    for (std::size_t i = 1; i < lines.size(); ++i) rows.push_back(read_row(lines[i]));
-    if (lines.size() == 1) faults_.push_back({std::string(file_), "there are no rows under the header"});
     return rows;
   }
 
@@ -89,33 +92,33 @@ class Table {
   std::vector<Fault>& faults() { return faults_; }
 
  private:
-  void read_header(const CsvLine& line) {
+  void read_header() {
     std::vector<std::string> known;
     for (const Column& column : columns_) known.emplace_back(column.name);
     for (const std::string_view name : names_) known.emplace_back(name);
-    header_ = read_csv_header(line, file_, known, faults_);
+    header_ = find_columns(text_, file_, known, faults_);
     for (std::size_t k = 0; k < Count; ++k)
       if (columns_[k].required && !header_.places[k])
-        faults_.push_back({fmt::format("{}, line {}", file_, line.number),
-                           fmt::format("there is no column {}", columns_[k].name)});
+        fault(text_.header_line(), fmt::format("there is no column {}", columns_[k].name));
   }
 
-  Row read_row(const CsvLine& line) {
-    Row row{line.number, {}, std::vector<std::string>(names_.size())};
-    const std::vector<std::string_view> cells = csv_cells(line.text);
+  Row read_row(std::size_t index) {
+    const std::size_t line = text_.line(index);
+    Row row{line, {}, std::vector<std::string>(names_.size())};
+    const std::vector<std::string> cells = text_.cells(index);
     if (cells.size() != header_.width)
-      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
+      fault(line, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
     for (std::size_t k = 0; k < Count; ++k) {
       if (!header_.places[k] || *header_.places[k] >= cells.size()) continue;
       const Column& column = columns_[k];
-      const std::string_view cell = cells[*header_.places[k]];
+      const std::string& cell = cells[*header_.places[k]];
       const std::string place =
-          fmt::format("{}, line {}, column {} ({})", file_, line.number, *header_.places[k] + 1, column.name);
-      if (cell.empty()) {
+          fmt::format("{}, line {}, column {} ({})", file_, line, *header_.places[k] + 1, column.name);
+      if (is_missing_cell(cell)) {
         if (column.required) faults_.push_back({place, fmt::format("{} is missing", column.name)});
         continue;
       }
-      const std::optional<double> value = csv_number(cell);
+      const std::optional<double> value = text_.number(cell);
       if (!value)
         faults_.push_back({place, fmt::format("{} is no number", in_quotes(cell))});
       else if (*value < column.lowest || *value > column.highest ||
@@ -129,10 +132,10 @@ class Table {
     for (std::size_t k = 0; k < names_.size(); ++k) {
       const auto place = header_.places[Count + k];
       if (!place || *place >= cells.size()) continue;
-      row.names[k] = std::string(cells[*place]);
+      row.names[k] = cells[*place];
       if (!is_name(row.names[k]))
         faults_.push_back(
-            {fmt::format("{}, line {}, column {} ({})", file_, line.number, *place + 1, names_[k]),
+            {fmt::format("{}, line {}, column {} ({})", file_, line, *place + 1, names_[k]),
              fmt::format("{} is no name of small letters, digits, - and _", in_quotes(row.names[k]))});
     }
     return row;
@@ -141,6 +144,7 @@ class Table {
   std::string_view file_;
   const std::array<Column, Count>& columns_;
   std::span<const std::string_view> names_;
+  TextTable text_;
   CsvHeader header_{std::vector<std::optional<std::size_t>>(Count + names_.size()), 0};
   std::vector<Fault> faults_;
 };

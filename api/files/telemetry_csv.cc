@@ -7,7 +7,7 @@
 
 #include "api/json/faults.h"
 #include "core/angle.h"
-#include "core/csv_cells.h"
+#include "core/text_table.h"
 
 namespace slipway::api {
 namespace {
@@ -35,15 +35,17 @@ class Reader {
   explicit Reader(std::string_view file) : file_(file) {}
 
   Result<planner::DriveSoFar> read(std::string_view bytes) {
-    const std::vector<CsvLine> lines = csv_lines(bytes);
-    if (lines.size() < 3) {
+    auto table = read_text_table(bytes, file_);
+    if (!table) return fail(std::move(table.error()));
+    table_ = *std::move(table);
+    if (table_.rows() < 2) {
       fault(std::string(file_), "there must be a header and two rows or more");
-    } else if (lines.size() - 1 > kMaxRows) {
-      fault(std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMaxRows));
+    } else if (table_.rows() > kMaxRows) {
+      fault(std::string(file_), fmt::format("{} rows, must be {} at most", table_.rows(), kMaxRows));
     } else {
-      read_header(lines.front());
-      for (std::size_t k = 1; k < lines.size(); ++k) read_row(lines[k]);
-      if (faults_.empty()) check_between_rows(lines);
+      read_header();
+      for (std::size_t k = 0; k < table_.rows(); ++k) read_row(k);
+      if (faults_.empty()) check_between_rows();
     }
     if (faults_.empty()) return std::move(drive_);
     if (faults_.size() > kMaxFaults) {
@@ -58,35 +60,36 @@ class Reader {
   void fault(std::string place, std::string message) {
     faults_.push_back({std::move(place), std::move(message)});
   }
-  std::string line_of(const CsvLine& line) const { return fmt::format("{}, line {}", file_, line.number); }
+  std::string line_of(std::size_t row) const { return fmt::format("{}, line {}", file_, table_.line(row)); }
 
-  void read_header(const CsvLine& line) {
+  void read_header() {
+    const std::string line = fmt::format("{}, line {}", file_, table_.header_line());
     std::vector<std::string> known;
     for (const Column& column : kKnown) known.emplace_back(column.name);
-    for (const std::string_view cell : csv_cells(line.text))
-      if (cell.size() > kCurrentOfWheel.size() && cell.ends_with(kCurrentOfWheel)) {
-        wheels_.emplace_back(cell.substr(0, cell.size() - kCurrentOfWheel.size()));
-        known.emplace_back(cell);
+    for (const std::string& name : table_.names())
+      if (name.size() > kCurrentOfWheel.size() && name.ends_with(kCurrentOfWheel)) {
+        wheels_.emplace_back(name.substr(0, name.size() - kCurrentOfWheel.size()));
+        known.emplace_back(name);
       }
-    header_ = read_csv_header(line, file_, known, faults_);
+    header_ = find_columns(table_, file_, known, faults_);
     for (std::size_t k = 0; k < kColumns; ++k)
       if (kKnown[k].required && !header_.places[k])
-        fault(line_of(line), fmt::format("there is no column {}", kKnown[k].name));
+        fault(line, fmt::format("there is no column {}", kKnown[k].name));
     if (header_.places[kCurrent] && !wheels_.empty())
-      fault(line_of(line), "current_a and the currents of wheels exclude each other");
+      fault(line, "current_a and the currents of wheels exclude each other");
   }
 
-  std::optional<double> number(const CsvLine& line, const std::vector<std::string_view>& cells,
-                               std::size_t place, std::string_view name, const Column& column) {
+  std::optional<double> number(std::size_t row, const std::vector<std::string>& cells, std::size_t place,
+                               std::string_view name, const Column& column) {
     if (!header_.places[place] || *header_.places[place] >= cells.size()) return std::nullopt;
-    const std::string_view cell = cells[*header_.places[place]];
+    const std::string& cell = cells[*header_.places[place]];
     const std::string where =
-        fmt::format("{}, column {} ({})", line_of(line), *header_.places[place] + 1, name);
-    if (cell.empty()) {
+        fmt::format("{}, column {} ({})", line_of(row), *header_.places[place] + 1, name);
+    if (is_missing_cell(cell)) {
       if (column.required) fault(where, fmt::format("{} is missing", name));
       return std::nullopt;
     }
-    const std::optional<double> value = csv_number(cell);
+    const std::optional<double> value = table_.number(cell);
     if (!value)
       fault(where, fmt::format("{} is no number", in_quotes(cell)));
     else if (*value < column.lowest || *value > column.highest)
@@ -95,8 +98,8 @@ class Reader {
     return value;
   }
 
-  void read_row(const CsvLine& line) {
-    const std::vector<std::string_view> cells = csv_cells(line.text);
+  void read_row(std::size_t line) {
+    const std::vector<std::string> cells = table_.cells(line);
     if (cells.size() != header_.width)
       fault(line_of(line), fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
     const auto value = [&](Place place) {
@@ -116,17 +119,17 @@ class Reader {
   }
 
   // "/rows/3/driven_m" is a line of the file.
-  void check_between_rows(const std::vector<CsvLine>& lines) {
+  void check_between_rows() {
     for (const Fault& each : planner::faults_of(drive_)) {
       constexpr std::string_view kRows = "/rows/";
       std::string place(file_);
-      if (each.pointer.starts_with(kRows))
-        place = line_of(lines[1 + std::stoul(each.pointer.substr(kRows.size()))]);
+      if (each.pointer.starts_with(kRows)) place = line_of(std::stoul(each.pointer.substr(kRows.size())));
       fault(std::move(place), each.message);
     }
   }
 
   std::string_view file_;
+  TextTable table_;
   CsvHeader header_{std::vector<std::optional<std::size_t>>(kColumns), 0};
   std::vector<std::string> wheels_;
   planner::DriveSoFar drive_;

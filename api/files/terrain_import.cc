@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/files/legend_csv.h"
 #include "api/files/terrain_file.h"
 #include "api/files/terrain_import_documents.h"
 #include "api/files/terrain_site.h"
@@ -36,10 +37,6 @@ bool is_name(const std::string& name) {
   });
 }
 
-bool are_polygons(const fs::path& path) {
-  return path.extension() == ".geojson" || path.extension() == ".json";
-}
-
 std::optional<double> gravity_of(const std::string& body) {
   if (body == "Mars") return 3.71;
   if (body == "Moon") return 1.62;
@@ -55,10 +52,10 @@ void check_legend_soils(const std::vector<dem::SoilClass>& legend, const Catalog
 }
 
 // What is wrong with the order before a map is opened, and its legend.
-Result<std::vector<dem::SoilClass>> check_order(const TerrainImport& order, const std::string& name,
-                                                const Catalogue& catalogue) {
+Result<LegendTable> check_order(const TerrainImport& order, const std::string& name,
+                                const Catalogue& catalogue) {
   std::vector<Fault> faults;
-  std::vector<dem::SoilClass> legend;
+  LegendTable legend;
   std::error_code ignored;
   if (!is_name(name))
     faults.push_back(
@@ -74,12 +71,12 @@ Result<std::vector<dem::SoilClass>> check_order(const TerrainImport& order, cons
   if (order.legend && order.soil) {
     const auto text = read_data_file(*order.legend);
     const std::string file = order.legend->filename().string();
-    auto read = text ? read_legend_csv(*text, file, are_polygons(*order.soil))
-                     : Result<std::vector<dem::SoilClass>>(fail(text.error()));
+    auto read = text ? read_legend_table(*text, file, dem::is_unit_file(*order.soil))
+                     : Result<LegendTable>(fail(text.error()));
     if (!read && read.error().faults.empty()) faults.push_back({"--legend", read.error().detail});
     if (!read) faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
     if (read) legend = *std::move(read);
-    check_legend_soils(legend, catalogue, file, faults);
+    check_legend_soils(legend.classes, catalogue, file, faults);
   }
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return legend;
@@ -95,21 +92,30 @@ Error joined(Error error, const Error& other) {
 
 dem::SoilImport soil_order(const TerrainImport& order, const std::vector<dem::SoilClass>& legend) {
   return {.source = *order.soil,
-          .polygons = are_polygons(*order.soil),
+          .polygons = dem::is_unit_file(*order.soil),
           .property = order.property,
           .coordinates = order.coordinates,
           .legend = legend,
           .fix = order.fix};
 }
 
+// What an order that is strict does not take.
+Error refused_warnings(const char* place, const std::vector<std::string>& warnings) {
+  Error error{
+      ErrorCode::kUnreadableRaster, "this map would be imported with a warning, and --strict was given", {}};
+  for (const std::string& warning : warnings) error.faults.push_back({place, warning});
+  return error;
+}
+
 Result<void> import_soil(const TerrainImport& order, const fs::path& folder, ImportedTerrain& made,
                          Progress& progress) {
-  made.soil_file = are_polygons(*order.soil) ? "soil_units.geojson" : "terrain_class.tif";
+  made.soil_file = dem::is_unit_file(*order.soil) ? "soil_units.geojson" : "terrain_class.tif";
   auto soil = dem::import_soil(soil_order(order, made.legend), made.elevation.info, folder / made.soil_file,
                                progress);
   if (!soil) return fail(soil.error());
   const auto hash = sha256_of_file(*order.soil);
   if (!hash) return fail(hash.error());
+  if (order.strict && !soil->warnings.empty()) return fail(refused_warnings("soil", soil->warnings));
   made.soil = *std::move(soil);
   made.soil_source = {order.soil->filename().string(), *hash, made.soil->source_format};
   return {};
@@ -117,7 +123,12 @@ Result<void> import_soil(const TerrainImport& order, const fs::path& folder, Imp
 
 Result<void> import_maps(const TerrainImport& order, const fs::path& folder, ImportedTerrain& made,
                          Progress& progress) {
-  auto elevation = dem::import_elevation({.source = order.elevation, .crs = order.crs, .fix = order.fix},
+  auto elevation = dem::import_elevation({.source = order.elevation,
+                                          .crs = order.crs,
+                                          .fix = order.fix,
+                                          .band = order.band,
+                                          .unit = order.unit,
+                                          .nodata = order.nodata},
                                          folder / "elevation.tif", progress);
   if (!elevation) {
     if (!order.soil) return fail(elevation.error());
@@ -125,6 +136,8 @@ Result<void> import_maps(const TerrainImport& order, const fs::path& folder, Imp
     return fail(soil ? elevation.error() : joined(elevation.error(), soil.error()));
   }
   made.elevation = *std::move(elevation);
+  if (order.strict && !made.elevation.warnings.empty())
+    return fail(refused_warnings("elevation", made.elevation.warnings));
   const auto source = sha256_of_file(order.elevation), written = sha256_of_file(folder / "elevation.tif");
   if (!source) return fail(source.error());
   if (!written) return fail(written.error());
@@ -182,7 +195,8 @@ Result<TerrainImportReport> import_terrain(const TerrainImport& order, const Cat
   made.name = order.name.empty() ? name_of_file(order.elevation) : order.name;
   auto legend = check_order(order, made.name, catalogue);
   if (!legend) return fail(legend.error());
-  made.legend = *std::move(legend);
+  made.legend = std::move(legend->classes);
+  made.legend_notes = std::move(legend->notes);
   const fs::path terrains = order.data / "terrains";
   if (const auto folder = make_folder(terrains); !folder) return fail(folder.error());
   remove_abandoned(terrains, made.name);

@@ -17,7 +17,7 @@ struct TerrainImport {
   std::filesystem::path data, elevation;
   std::string crs;  // stands for the map's own; empty: as the map says
   std::optional<std::filesystem::path>
-      soil;  // a class raster, or polygons where it ends in .geojson or .json
+      soil;  // a class raster, or polygons of units (see dem::is_unit_file())
   std::optional<std::filesystem::path> legend;  // CSV: value,label,soil and where known rock_share
   std::string property = "unit";                // of the polygons: which property is the label
   dem::PolygonCoordinates coordinates = dem::PolygonCoordinates::kLongitudeLatitude;
@@ -25,7 +25,11 @@ struct TerrainImport {
   std::string name;                    // empty: made of the map's file name
   std::string title, licence, source;  // empty: not stated
   std::optional<double> gravity_m_s2;  // else the body's, where it is Mars, the Moon or the Earth
+  int band = 0;                        // of heights; 0: the only one, or the one described so
+  std::string unit;                    // of heights, in place of the file's
+  std::optional<double> nodata;        // also marks a missing height
   bool fix = false;                    // mends what can be mended
+  bool strict = false;                 // refuses what would be warned of
   bool replace = false;                // of a terrain of this name
   ChildLimits limits = {};
   std::string origin = {};  // bytes of upload.json in the terrain's folder; empty: there is no such file

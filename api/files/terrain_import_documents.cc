@@ -5,10 +5,8 @@
 
 #include <cmath>
 
-#include "api/files/relief_values.h"
-#include "api/json/faults.h"
 #include "api/json/writer.h"
-#include "core/csv_cells.h"
+#include "dem/body_degrees.h"
 
 namespace slipway::api {
 namespace {
@@ -18,41 +16,6 @@ constexpr std::string_view kNotStated = "not stated";
 std::string_view stated(const std::string& text) {
   return text.empty() ? kNotStated : std::string_view(text);
 }
-
-// One row of the legend; what is wrong with it goes to the faults.
-class LegendRow {
- public:
-  LegendRow(const CsvLine& line, const CsvHeader& header, std::string_view file, std::vector<Fault>& faults)
-      : cells_(csv_cells(line.text)),
-        header_(header),
-        place_(fmt::format("{}, line {}", file, line.number)),
-        faults_(faults) {}
-
-  bool has_all_cells() {
-    if (cells_.size() == header_.width) return true;
-    fault(fmt::format("{} cells, must be {} as in the header", cells_.size(), header_.width));
-    return false;
-  }
-  std::string text(std::size_t column) const {
-    const auto& place = header_.places[column];
-    return place ? std::string(cells_[*place]) : std::string();
-  }
-  std::optional<double> number(std::size_t column, double least, double most, std::string_view name) {
-    const std::string cell = text(column);
-    if (cell.empty()) return std::nullopt;
-    const auto value = csv_number(cell);
-    if (value && *value >= least && *value <= most) return value;
-    fault(fmt::format("{} = {}, must be a number in [{}, {}]", name, in_quotes(cell), least, most));
-    return std::nullopt;
-  }
-  void fault(std::string message) { faults_.push_back({place_, std::move(message)}); }
-
- private:
-  std::vector<std::string_view> cells_;
-  const CsvHeader& header_;
-  std::string place_;
-  std::vector<Fault>& faults_;
-};
 
 void write_legend(json::Writer& w, const std::vector<dem::SoilClass>& legend, bool polygons) {
   w.key("legend").begin_array();
@@ -82,60 +45,61 @@ std::string source_row(const SourceFile& source, const std::string& becomes) {
   return fmt::format("| `{}` | {} | `{}` | `{}` |\n", source.name, source.format, source.sha256, becomes);
 }
 
+// The corners from the north-west clockwise, in degrees of the body to a metre or better.
+std::vector<std::pair<const char*, dem::MapPlace>> corners_of(const dem::ElevationInfo& info) {
+  const dem::Extent at = info.geometry.extent();
+  const dem::BodyDegrees degrees(info.crs_wkt, info.body);
+  std::vector<std::pair<const char*, dem::MapPlace>> corners;
+  for (const auto& [name, place] : {std::pair{"north-west", dem::MapPlace{at.west_m, at.north_m}},
+                                    {"north-east", dem::MapPlace{at.east_m, at.north_m}},
+                                    {"south-east", dem::MapPlace{at.east_m, at.south_m}},
+                                    {"south-west", dem::MapPlace{at.west_m, at.south_m}}})
+    if (const auto corner = degrees.to_degrees(place)) corners.emplace_back(name, *corner);
+  return corners;
+}
+
+std::string corners_text(const dem::ElevationInfo& info) {
+  std::string text;
+  for (const auto& [name, place] : corners_of(info))
+    text += fmt::format("{}{} {:.6f} {}, {:.6f} {}", text.empty() ? "" : "; ", name, std::abs(place.x),
+                        place.x < 0.0 ? "W" : "E", std::abs(place.y), place.y < 0.0 ? "S" : "N");
+  return text.empty() ? "not on a body" : text;
+}
+
 std::vector<std::string> all_changes(const ImportedTerrain& made) {
   std::vector<std::string> changes = made.elevation.changes;
   if (made.soil) changes.insert(changes.end(), made.soil->changes.begin(), made.soil->changes.end());
   return changes;
 }
 
-}  // namespace
-
-Result<std::vector<dem::SoilClass>> read_legend_csv(std::string_view text, std::string_view file,
-                                                    bool polygons) {
-  std::vector<Fault> faults;
-  std::vector<dem::SoilClass> legend;
-  const std::vector<CsvLine> lines = csv_lines(text);
-  if (lines.empty())
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} is empty", file),
-                {{std::string(file), "is empty"}});
-  const CsvHeader header =
-      read_csv_header(lines.front(), file, {"value", "label", "soil", "rock_share"}, faults);
-  if (!header.places.empty()) {
-    if (!polygons && !header.places[0])
-      faults.push_back({std::string(file), "the column value is missing: the raster's number of the class"});
-    if (!header.places[1]) faults.push_back({std::string(file), "the column label is missing"});
-    if (!header.places[2]) faults.push_back({std::string(file), "the column soil is missing"});
-  }
-  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    LegendRow row(lines[i], header, file, faults);
-    if (!row.has_all_cells()) continue;
-    dem::SoilClass& entry = legend.emplace_back();
-    const auto value =
-        polygons ? std::optional(static_cast<double>(i - 1)) : row.number(0, -32768, 32767, "value");
-    if (value && *value != std::floor(*value)) row.fault("value must be a whole number");
-    if (!polygons && row.text(0).empty()) row.fault("value is empty");
-    entry.value = static_cast<int>(value.value_or(0.0));
-    entry.label = row.text(1);
-    if (entry.label.empty()) row.fault("label is empty");
-    if (const std::string soil = row.text(2); !soil.empty()) entry.soil = soil;
-    entry.rock_share = row.number(3, json::kRockShareRule.lowest, json::kRockShareRule.highest, "rock_share");
-  }
-  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
-  return legend;
+std::vector<std::string> all_on_trust(const ImportedTerrain& made) {
+  std::vector<std::string> told = made.elevation.on_trust;
+  for (const std::string& note : made.legend_notes) told.push_back("legend: " + note);
+  if (made.soil)
+    for (const std::string& note : made.soil->on_trust) told.push_back("soil map: " + note);
+  return told;
 }
+
+std::vector<std::string> all_warnings(const ImportedTerrain& made) {
+  std::vector<std::string> told = made.elevation.warnings;
+  if (made.soil)
+    for (const std::string& warning : made.soil->warnings) told.push_back("soil map: " + warning);
+  return told;
+}
+
+}  // namespace
 
 std::string terrain_document(const TerrainImport& order, const ImportedTerrain& made) {
   json::Writer w;
   w.begin_object().text("format", "terrain/1").text("name", made.name).text("title", made.title);
   w.text("elevation", "elevation.tif").exact("gravity_m_s2", made.gravity_m_s2);
   if (made.soil) {
-    const bool polygons = made.soil->source_format == "GeoJSON";
+    const bool polygons = made.soil_file.ends_with(".geojson");
     w.key("soil").begin_object().text(polygons ? "polygons" : "raster", made.soil_file);
     if (polygons) {
       w.text("property", order.property);
       w.text("coordinates",
-             order.coordinates == dem::PolygonCoordinates::kMap ? "map" : "longitude_latitude");
+             made.soil->coordinates == dem::PolygonCoordinates::kMap ? "map" : "longitude_latitude");
     }
     write_legend(w, made.legend, polygons);
     w.text("assumption", order.assumption.empty()
@@ -157,9 +121,13 @@ std::string provenance_text(const TerrainImport& order, const ImportedTerrain& m
                       info.crs_name);
   text += fmt::format("- Extent: {}\n- Grid: {}\n", extent_text(info.geometry), grid_text(info.geometry));
   text +=
-      fmt::format("- Heights: {:.3f} to {:.3f} m; {:.2f} % of the cells have none\n\n",
-                  made.elevation.lowest_m, made.elevation.highest_m, 100.0 * made.elevation.unknown_share);
-  text += "| source | format | SHA-256 of the source | became |\n|---|---|---|---|\n";
+      fmt::format("- Heights: {:.3f} to {:.3f} m; {:.2f} % of the cells have none\n", made.elevation.lowest_m,
+                  made.elevation.highest_m, 100.0 * made.elevation.unknown_share);
+  text += fmt::format("- Corners, deg: {}\n\n## What was read\n\n{}\n\n", corners_text(info),
+                      made.elevation.reading);
+  for (const std::string& taken : all_on_trust(made)) text += fmt::format("- On trust: {}\n", taken);
+  for (const std::string& warning : all_warnings(made)) text += fmt::format("- Warning: {}\n", warning);
+  text += "\n| source | format | SHA-256 of the source | became |\n|---|---|---|---|\n";
   text += source_row(made.elevation_source, "elevation.tif");
   if (made.soil) text += source_row(made.soil_source, made.soil_file);
   text += fmt::format("\nSHA-256 of `elevation.tif`: `{}`\n\n## What was changed\n\n", made.elevation_sha256);
@@ -175,11 +143,17 @@ std::string import_text(const ImportedTerrain& made) {
       fmt::format("terrain {}: {}, {}\n  {}\n  heights {:.2f} to {:.2f} m, {:.2f} % unknown\n", made.name,
                   grid_text(info.geometry), info.body, extent_text(info.geometry), made.elevation.lowest_m,
                   made.elevation.highest_m, 100.0 * made.elevation.unknown_share);
+  text += "  " + made.elevation.reading + "\n";
   for (const std::string& change : all_changes(made)) text += "  changed: " + change + "\n";
+  for (const std::string& taken : all_on_trust(made)) text += "  on trust: " + taken + "\n";
+  for (const std::string& warning : all_warnings(made)) text += "  warning: " + warning + "\n";
+  if (made.soil)
+    for (const std::string& line : made.soil->cover) text += "  " + line + "\n";
   if (made.soil && !made.soil->unlisted.empty())
     text += fmt::format("  classes that the legend does not have, unknown ground: {}\n",
                         fmt::join(made.soil->unlisted, ", "));
   if (!made.soil) text += "  no soil map: all of it is unknown ground\n";
+  text += "  corners, deg: " + corners_text(info) + "\n";
   return text;
 }
 
@@ -195,7 +169,14 @@ std::string import_document(const ImportedTerrain& made) {
   w.metres("lowest_m", made.elevation.lowest_m).metres("highest_m", made.elevation.highest_m);
   w.exact("unknown_share", made.elevation.unknown_share);
   w.text("source_sha256", made.elevation_source.sha256).text("elevation_sha256", made.elevation_sha256);
+  w.text("reading", made.elevation.reading);
   w.texts("changes", all_changes(made));
+  w.texts("on_trust", all_on_trust(made)).texts("warnings", all_warnings(made));
+  w.key("corners").begin_array();
+  for (const auto& [name, place] : corners_of(info))
+    w.begin_object().exact("longitude_deg", place.x).exact("latitude_deg", place.y).end_object();
+  w.end_array();
+  w.texts("soil_cover", made.soil ? made.soil->cover : std::vector<std::string>{});
   w.texts("unlisted_classes", made.soil ? made.soil->unlisted : std::vector<std::string>{});
   w.end_object();
   return w.take() + "\n";

@@ -27,12 +27,8 @@ struct ImportedTerrain {
   SourceFile soil_source;
   std::string soil_file;
   std::vector<dem::SoilClass> legend;
+  std::vector<std::string> legend_notes = {};  // of its text
 };
-
-// Reads a legend "value,label,soil[,rock_share]"; polygons need no value. An empty soil is unknown ground.
-// Faults name the line.
-Result<std::vector<dem::SoilClass>> read_legend_csv(std::string_view text, std::string_view file,
-                                                    bool polygons);
 
 // terrain.json ("terrain/1").
 std::string terrain_document(const TerrainImport& order, const ImportedTerrain& made);

@@ -19,7 +19,8 @@ Result<std::string> contours(const TerrainSite& site, const ContourRequest& requ
   std::vector<dem::VectorLayer> layers;
   layers.push_back(*std::move(layer));
   if (request.geopackage) return dem::encode_geopackage(layers, info.crs_wkt);
-  const json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m};
+  const json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m,
+                            info.geometry.extent()};
   return json::layers_geojson(
       std::move(layers), map,
       request.lonlat ? json::VectorCoordinates::kLongitudeLatitude : json::VectorCoordinates::kMap);

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "api/chart/report_page.h"
-#include "api/export/answer_vectors.h"
 #include "api/documents/plan_answer.h"
+#include "api/export/answer_vectors.h"
+#include "api/export/station_csv.h"
 #include "api/job_kinds.h"
 #include "api/json/problem_document.h"
-#include "api/export/station_csv.h"
 #include "server/routes/query.h"
 #include "server/routes/request_headers.h"
 #include "server/routes/responses.h"
@@ -242,7 +242,8 @@ Result<std::string> JobAnswers::vectors_of(const api::Job& job, bool geopackage,
   if (site == catalogue->terrains.end())
     return fail(ErrorCode::kNotFound, "the terrain of the job is no longer among the service's");
   const dem::ElevationInfo& info = site->second->info();
-  const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m};
+  const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m,
+                                 info.geometry.extent()};
   std::string stations;
   if (api::json::is_thinned(answer)) {
     auto all = whole_series(job);

@@ -114,6 +114,15 @@ TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
             (std::vector<std::string>{"/keep_out", "/keep_in/0"}));
 }
 
+// An area far off the map guards nothing: its corners may be swapped, or degrees.
+TEST(CheckRequest, AreasThatAreOffTheMapBecauseTheirCornersAreSwappedAreRefused) {
+  const std::string path = R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}])";
+  EXPECT_EQ(kMer.faults_of(path + R"(,"keep_out":[[[30,105],[30,115],[40,110]]])"),
+            std::vector<std::string>{"/keep_out/0"});
+  // Of the ground beside the map.
+  EXPECT_TRUE(kMer.faults_of(path + R"(,"keep_out":[[[3000,10000],[3000,11000],[4000,10000]]])").empty());
+}
+
 TEST(Check, TheSameRequestGivesTheSameBytes) {
   const auto read = testing::small_world().read_check(kMer.with(kPath));
   ASSERT_TRUE(read);

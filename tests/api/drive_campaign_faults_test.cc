@@ -43,6 +43,20 @@ TEST_F(DriveCampaignFolder, AsItIsItLoadsAndSaysWhatWasPassedOver) {
   EXPECT_NE(campaign->notes[1].find("passed over: sky"), std::string::npos);
 }
 
+TEST_F(DriveCampaignFolder, NoiseIsAskedForOfWhatWasMeasuredAlone) {
+  edit(R"("current_a": 0.01,
+                     "sinkage_m": 0.002})",
+       R"("current_a": 0.01})");
+  ASSERT_TRUE(load()) << "no drive has sinkages";
+  write("a.csv", "t_s,x_m,y_m,z_m,lf_sinkage_m\n0,1,2,0.5,0.01\n2,1.1,2,0.5,\n");
+  expect_fault("campaign.json#/measurement_std",
+               "sinkage_m must be given and not 0: drive \"a\" has sinkages");
+  edit(R"("current_rel": 0.02, "current_a": 0.01,)", "");
+  ASSERT_TRUE(load()) << "no drive has currents";
+  write("a.csv", kHeader + kRows);
+  expect_fault("campaign.json#/measurement_std", "current_rel or current_a must be given");
+}
+
 TEST_F(DriveCampaignFolder, ATurnRateThatIsGivenCountsAndIsOurOwnKey) {
   edit("\"turn_in_place\": true,", "\"turn_in_place\": true, \"turn_rate_deg_s\": 3, \"crab_deg\": 10,");
   const auto campaign = load();

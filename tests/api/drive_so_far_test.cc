@@ -152,5 +152,27 @@ TEST(Beliefs, WholeSoilsStandInForThoseOfTheCatalogue) {
       "/beliefs/0/summary");
 }
 
+// Spreadsheets and rovers' own tools write the same table in many ways.
+TEST(DriveSoFarCsv, EveryWayToWriteTheTableIsTheSameTelemetry) {
+  const std::string plain = "driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.5,8142638,-276640.25,6.5\n";
+  for (const std::string text :
+       {"driven_m;x_m;y_m;current_a\r\n0;8142640;-276640;\r\n2,5;8142638;-276640,25;6,5\r\n",
+        "sep=;\ndriven_m;x_m;y_m;current_a\n0;8142640;-276640;-\n2.5;8142638;-276640.25;6.5\n",
+        "\xEF\xBB\xBF"
+        "driven_m\tx_m\ty_m\tcurrent_a\n0\t8142640\t-276640\tNaN\n2.5\t8142638\t-276640.25\t6.5\n",
+        "driven_m,x_m,y_m,current_a\n0,\"8142640\",-276640,N/A\n2.5,8142638,-276640.25,6.5\n"}) {
+    const auto expected = read_telemetry_csv(plain, "t.csv"), read = read_telemetry_csv(text, "t.csv");
+    ASSERT_TRUE(expected);
+    ASSERT_TRUE(read) << text << (read ? "" : read.error().faults[0].message);
+    ASSERT_EQ(read->rows.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(read->rows[k].driven_m, expected->rows[k].driven_m) << text;
+      EXPECT_EQ(read->rows[k].x_m, expected->rows[k].x_m) << text;
+      EXPECT_EQ(read->rows[k].y_m, expected->rows[k].y_m) << text;
+      EXPECT_EQ(read->rows[k].current_a, expected->rows[k].current_a) << text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipway::api

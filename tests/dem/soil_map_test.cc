@@ -51,6 +51,45 @@ class SoilRaster : public testing::Test {
   TemporaryFolder folder_;
 };
 
+// As gdalwarp -dstalpha and GIS tools write it: where nothing is to be seen there is no class.
+TEST_F(SoilRaster, ABandOfOpacityHidesCells) {
+  RasterOptions options{
+      .rows = 8, .columns = 10, .bands = 2, .type = GDT_Byte, .transform = {100, 1, 0, 200, 0, -1}};
+  options.cells.assign(80, 3.0F);
+  options.also = [](GDALDataset& dataset) {
+    GDALRasterBand& alpha = *dataset.GetRasterBand(2);
+    alpha.SetColorInterpretation(GCI_AlphaBand);
+    std::vector<std::uint8_t> opacity(80, 255);
+    for (std::size_t i = 0; i < 40; ++i) opacity[i] = 0;
+    EXPECT_EQ(alpha.RasterIO(GF_Write, 0, 0, 10, 8, opacity.data(), 10, 8, GDT_Byte, 0, 0, nullptr), CE_None);
+  };
+  const auto map = read(options);
+  ASSERT_TRUE(map) << map.error().detail;
+  EXPECT_FALSE((*map)->class_at(105.5, 199.5));
+  EXPECT_EQ((*map)->class_at(105.5, 192.5), 3);
+  EXPECT_EQ((*map)->cells_of_rows(), (std::vector<std::size_t>{0, 0, 40, 0}));
+}
+
+// 354.47 deg and -5.53 deg are one place: the elevation may have either, and the classes the other.
+TEST_F(SoilRaster, ClassesWholeTurnsOfLongitudeAwayLieOnTheMap) {
+  const double turn = 2.0 * 3.14159265358979323846 * 3396190.0;
+  for (const double of_map : {0.0, 1.0, -1.0, 2.0}) {
+    for (const double of_classes : {0.0, 1.0, -1.0}) {
+      write_geotiff(folder_ / "dem.tif",
+                    {.rows = 8, .columns = 10, .transform = {100 + of_map * turn, 1, 0, 200, 0, -1}});
+      RasterOptions options{.rows = 8,
+                            .columns = 10,
+                            .type = GDT_Byte,
+                            .transform = {100 + of_classes * turn, 1, 0, 200, 0, -1}};
+      for (int i = 0; i < 80; ++i) options.cells.push_back(i % 10 < 5 ? 1.0F : 3.0F);
+      const auto map = read(options);
+      ASSERT_TRUE(map) << map.error().detail;
+      EXPECT_EQ((*map)->class_at(104.5 + of_map * turn, 195.5), 1);
+      EXPECT_EQ((*map)->class_at(105.5 + of_map * turn, 195.5), 3);
+    }
+  }
+}
+
 TEST_F(SoilRaster, ThinnedItHasTheClassOfOnePlaceForEachStep) {
   // 8 x 10 cells of 1 m like the elevation's: the west half sand, the east half rock.
   RasterOptions options{.rows = 8, .columns = 10, .type = GDT_Byte, .transform = {100, 1, 0, 200, 0, -1}};

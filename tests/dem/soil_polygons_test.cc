@@ -103,9 +103,9 @@ TEST_F(SoilPolygons, AllFaultsAreReportedTogetherAndNameTheFeature) {
           "," + feature("A", "[[0,0],[1,\"q\"],[1,1],[0,0]]") + "," +
           feature("A", "[[0,0],[1,1e400],[1,1],[0,0]]") + "," +
           R"({"type":"Feature","properties":{"Name":"A"},"geometry":{"type":"Point","coordinates":[1,1]}},)" +
-          R"({"type":"Feature","properties":{"Name":"A"},"geometry":null},)" +
+          R"({"type":"Feature","properties":{"Name":"A"}},)" +
           R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}},)" +
-          feature("A", "[[0,0],[361,0],[1,1],[0,0]]") + "," + feature("A", "[[0,0],[1,91],[1,1],[0,0]]") +
+          feature("A", "[[0,0],[721,0],[1,1],[0,0]]") + "," + feature("A", "[[0,0],[1,91],[1,1],[0,0]]") +
           "," + feature("A", "[[0,0],[1,0],[1,1],[0,0]]")),
       PolygonCoordinates::kLongitudeLatitude);
   ASSERT_FALSE(map);

@@ -24,7 +24,7 @@ MAY_SEE = {
 # room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
 # for neighbours that do not see each other. "." is the room itself; a room that is not listed has no folders.
 FOLDERS = {
-    "dem": [".", "write"],
+    "dem": [".", "import", "write"],
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
     "planner": ["problem", "search", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
@@ -38,7 +38,7 @@ MOST_SOURCES = 30  # .cc files in one folder
 
 # vendor header -> the only files of ours that may include it.
 FENCES = [
-    (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/(write/)?gdal_\w+\.(cc|h)"),
+    (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/((import|write)/)?gdal_\w+\.(cc|h)"),
     (r"ompl/.*", r"planner/search/ompl_\w+\.(cc|h)"),
     (r"(cvode|sundials|nvector|sunlinsol|sunmatrix)/.*", r"sim/dynamic/cvode_\w+\.cc"),
     (r"(kinsol)/.*", r"sim/quasi_static/kinsol_\w+\.cc"),

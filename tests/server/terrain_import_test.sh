@@ -108,6 +108,76 @@ expect 0 $import "$folder/feet.tif" --fix --replace
 holds 'heights 0.02 to 1.22 m' "$folder/out"
 rm -r "$folder/data/terrains/feet"
 
+# What the numbers of a map mean: what was read is told, with what nobody stated and the corners.
+gdal_translate -q -ot Int16 -a_srs "$mars" "$folder/holes.asc" "$folder/site.tif"
+echo '<PAMDataset><PAMRasterBand band="1"><Scale>0.5</Scale></PAMRasterBand></PAMDataset>' >"$folder/site.tif.aux.xml"
+expect 0 $import "$folder/site.tif" --name meant
+holds 'heights 0.00 to 2.00 m' "$folder/out"
+holds 'heights: band 1, metres, scale 0.5 and offset 0 from site.tif.aux.xml, no nodata value, vertical datum not stated' "$folder/out"
+holds 'on trust: heights are metres: no unit is stated' "$folder/out"
+holds 'corners, deg: north-west 0.000000 E, 0.001350 N; north-east' "$folder/out"
+holds 'scale 0.5 and offset 0 from site.tif.aux.xml' "$folder/data/terrains/meant/PROVENANCE.md"
+[ "$(head -c 4 "$folder/data/terrains/meant/picture.png" | tail -c 3)" = PNG ] || { echo "no picture of the terrain"; exit 1; }
+echo '<PAMDataset><PAM' >"$folder/site.tif.aux.xml"
+expect 2 $import "$folder/site.tif" --name meant --replace
+holds "site.tif.aux.xml lies beside the map and can't be read" "$folder/err"
+# remedy START: the command that is told, which begins so; it is run beside the map.
+remedy() {
+  told="$(sed -n -e 's/ (--fix mends it.)$//' -e "s/.*\($1.*\)\$/\1/p" "$folder/err" | head -n 1)"
+  (cd "$folder" && eval "$told" >/dev/null)
+}
+remedy 'mv site'
+expect 0 $import "$folder/site.tif" --name meant --replace
+holds 'heights 0.00 to 4.00 m' "$folder/out"
+
+# A collar that nobody declares is warned of, with the value that --nodata takes; --strict refuses it.
+awk 'NR > 5 { for (k = 1; k <= NF; ++k) $k = NR < 16 || k < 11 ? 0 : $k - 4500 } { print }' "$folder/holes.asc" >"$folder/collar.asc"
+expect 2 $import "$folder/collar.asc" --crs "$mars" --name meant --replace --strict
+holds 'have the one height 0 m, with a cliff of up to 4' "$folder/err"
+holds 'row [0-9]*, column [0-9]*' "$folder/err"
+expect 0 $import "$folder/collar.asc" --crs "$mars" --name meant --replace
+holds 'warning: 1500 cells' "$folder/out"
+expect 0 $import "$folder/collar.asc" --crs "$mars" --name meant --replace --strict \
+  $(sed -n 's/.*import the map with \(--nodata [^ ]*\)$/\1/p' "$folder/out" | head -n 1)
+holds '23.44 % unknown' "$folder/out"
+
+# Pictures are no heights; a unit says that numbers of 8 bits are some, and colours are decoded as is told.
+gdal_translate -q -ot Byte -a_srs "$mars" "$folder/holes.asc" "$folder/grey.tif"
+expect 2 $import "$folder/grey.tif" --name meant --replace
+holds '8 bits without a unit' "$folder/err"
+expect 0 $import "$folder/grey.tif" --name meant --replace --unit m
+holds 'steps of 1 m' "$folder/out"
+gdal_translate -q -b 1 -b 1 -b 1 -co PHOTOMETRIC=RGB -colorinterp red,green,blue "$folder/grey.tif" "$folder/rgb.tif"
+expect 2 $import "$folder/rgb.tif" --name meant --replace
+holds 'it is a picture, not heights' "$folder/err"
+remedy 'gdal_calc.py -A rgb'
+expect 2 $import "$folder/rgb_m.tif" --name meant --replace  # decoded, these colours are no ground of this world
+holds 'whose height no ground has, the first with -3[12]' "$folder/err"
+# Of several bands one is asked for, unless it says itself that it is the one.
+gdal_translate -q -b 1 -b 1 "$folder/site.tif" "$folder/bands.tif"
+expect 2 $import "$folder/bands.tif" --name meant --replace --fix
+holds 'has 2 bands' "$folder/err"
+expect 0 $import "$folder/bands.tif" --name meant --replace --band 2
+holds 'heights: band 2 (as asked for)' "$folder/out"
+
+# Distances from the centre, and a projection without a scale.
+expect 2 $import "$folder/radii.asc" --crs "$mars" --name meant --replace
+gdal_translate -q -a_srs "$mars" "$folder/radii.asc" "$folder/radii.tif"
+expect 2 $import "$folder/radii.tif" --name meant --replace
+remedy 'gdal_calc.py -A radii'
+expect 0 $import "$folder/radii_m.tif" --name meant --replace
+cp "$folder/out" "$folder/by_remedy"
+expect 0 $import "$folder/radii.tif" --name meant --replace --fix
+holds "$(sed -n 's/.*\(heights -[0-9.]* to -[0-9.]* m\).*/\1/p' "$folder/by_remedy")" "$folder/out"
+gdal_translate -q -a_srs 'PROJCS["none",GEOGCS["m",DATUM["m",SPHEROID["m",3396190,0]],PRIMEM["r",0],UNIT["degree",0.0174532925199433]],PROJECTION["Mercator_1SP"],PARAMETER["central_meridian",0],PARAMETER["scale_factor",0],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]]' \
+  "$folder/holes.asc" "$folder/none.tif" 2>"$folder/told"
+expect 2 $import "$folder/none.tif" --name meant --replace --fix
+holds 'with a scale factor of 0' "$folder/err"
+sed -i 's/ (this one has the factor 1.*//' "$folder/err"
+remedy 'gdal_translate -a_srs'
+expect 0 $import "$folder/none_m.tif" --name meant --replace --fix
+rm -r "$folder/data/terrains/meant"
+
 # A soil map: its classes are told where there is no legend, and a legend's faults all at once.
 awk 'BEGIN { print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 1"
   for (r = 0; r < 80; ++r) { for (k = 0; k < 80; ++k) printf "%d ", k < 40 ? 1 : 2; printf "\n" } }' >"$folder/classes.asc"

@@ -41,6 +41,8 @@ class AppendedReader {
     if (!passed_over_.empty())
       campaign_.notes.push_back(fmt::format("columns that the format does not have were passed over: {}",
                                             fmt::join(passed_over_, ", ")));
+    for (const std::string& words : missing_noise(campaign_.measurement_std, campaign_.drives))
+      reader.faults().push_back({"/drives", "measurement_std of the reference: " + words});
     campaign_.fingerprint = fmt::format("{:016x}", digest_);
     if (reader.faults().empty()) take_as_recorded(campaign_);
     return std::move(campaign_);

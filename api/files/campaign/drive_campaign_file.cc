@@ -165,11 +165,10 @@ void read_measurement_std(ObjectReader& reader, gap::MeasurementStd& std) {
   if (!object) return;
   object->number("position_m", kRequired, {"m", 0.0, 1000.0, true}, std.position_m);
   object->angle_deg("attitude_deg", kRequired, {"deg", 0.0, 180.0, true}, std.attitude_rad);
-  const bool both = object->number("current_rel", kRequired, {"1", 0.0, 10.0}, std.current_relative) &
-                    object->number("current_a", kRequired, {"A", 0.0, 1000.0}, std.current_a);
-  if (both && std.current_relative == 0.0 && std.current_a == 0.0)
-    object->fault("current_a", "current_rel and current_a are both 0: no current is measured exactly");
-  object->number("sinkage_m", kRequired, {"m", 0.0, 10.0, true}, std.sinkage_m);
+  // Of what no drive has, see missing_noise() of drive_campaign_source.cc.
+  object->number("current_rel", kOptional, {"1", 0.0, 10.0}, std.current_relative);
+  object->number("current_a", kOptional, {"A", 0.0, 1000.0}, std.current_a);
+  object->number("sinkage_m", kOptional, {"m", 0.0, 10.0, true}, std.sinkage_m);
   object->refuse_unknown();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -94,6 +95,8 @@ class Loader {
     campaign_.notes = file_.notes;
     for (const json::CampaignTerrainEntry& entry : file_.terrains) read_terrain(entry);
     for (json::CampaignDriveEntry& entry : file_.drives) read_drive(entry);
+    for (const std::string& words : missing_noise(campaign_.measurement_std, campaign_.drives))
+      add("/measurement_std", words);
     if (!faults_.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults_), faults_);
     note_columns();
     json::Writer rover;
@@ -267,6 +270,26 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
   if (!campaign) return campaign;
   take_as_recorded(*campaign);
   return campaign;
+}
+
+std::vector<std::string> missing_noise(const gap::MeasurementStd& std,
+                                       std::span<const gap::MeasuredDriveSeries> drives) {
+  std::vector<std::string> missing;
+  const auto ask = [&](const char* keys, double gap::WheelReading::*reading, const char* channel) {
+    for (const gap::MeasuredDriveSeries& drive : drives)
+      for (const gap::DriveSample& sample : drive.samples)
+        for (const gap::WheelReading& wheel : sample.wheels)
+          if (std::isfinite(wheel.*reading)) {
+            missing.push_back(
+                fmt::format("{} must be given and not 0: drive {} has {}, and no sensor is exact", keys,
+                            in_quotes(drive.id), channel));
+            return;
+          }
+  };
+  if (std.current_relative == 0.0 && std.current_a == 0.0)
+    ask("current_rel or current_a", &gap::WheelReading::current_a, "currents");
+  if (std.sinkage_m == 0.0) ask("sinkage_m", &gap::WheelReading::sinkage_m, "sinkages");
+  return missing;
 }
 
 void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSeries& drive) {

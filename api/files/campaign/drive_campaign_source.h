@@ -2,6 +2,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "api/files/catalogue.h"
 #include "core/result.h"
@@ -15,6 +18,11 @@ namespace slipway::api {
 // the file, "campaign.json#/drives/3/terrain" or "D001.csv#/12/x_m". Errors: unreadable_data.
 Result<gap::DriveCampaign> load_drive_campaign(const std::filesystem::path& folder,
                                                const Catalogue& catalogue);
+
+// The noises that nobody stated of channels that the drives have, each in a sentence: a noise is asked for
+// where its channel was measured, and nowhere else.
+std::vector<std::string> missing_noise(const gap::MeasurementStd& std,
+                                       std::span<const gap::MeasuredDriveSeries> drives);
 
 // Of a drive of which only the end was recorded the first and the last row are taken; a note says so.
 void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSeries& drive);

@@ -12,6 +12,8 @@
 #include <set>
 #include <system_error>
 
+#include "api/files/campaign/import_attitude.h"
+#include "api/files/campaign/import_clock.h"
 #include "api/files/campaign/recorded_table.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
@@ -35,23 +37,10 @@ std::optional<std::string> bytes_of(const fs::path& path) {
   return std::string{std::istreambuf_iterator<char>(stream), {}};
 }
 
-double seconds_of(const std::string& unit) {
-  if (unit == "ms") return 1e-3;
-  if (unit == "us") return 1e-6;
-  return unit == "ns" ? 1e-9 : 1.0;
-}
-
-// The value `delay_s` later, between rows by a line; nothing beyond the ends or beside a missing one.
-double delayed(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t row,
-               double delay_s) {
-  if (delay_s == 0.0) return values[row];
-  const double at = time_s[row] + delay_s;
-  const auto next = std::lower_bound(time_s.begin(), time_s.end(), at);
-  if (next == time_s.end() || (next == time_s.begin() && *next > at)) return kMissing;
-  const auto j = static_cast<std::size_t>(next - time_s.begin());
-  if (*next == at) return values[j];
-  const double share = (at - time_s[j - 1]) / (time_s[j] - time_s[j - 1]);
-  return values[j - 1] + share * (values[j] - values[j - 1]);
+// A full turn in the unit that a column was recorded in; 0 of what is no angle.
+double turn_of(const ImportedColumn& column) {
+  constexpr double kTurn_deg = 360.0;
+  return column.to.ends_with("_deg") ? kTurn_deg / std::abs(column.factor) : 0.0;
 }
 
 class Importer {
@@ -64,15 +53,10 @@ class Importer {
     made_.mapping_file = mapping_.file;
     made_.known_file = mapping_.known;
     made_.from_ned = mapping_.axes == ImportAxes::kNed;
+    made_.wheels = mapping_.wheels;
+    made_.clock_unit = mapping_.clock.unit;
     faults_ = mapping_.faults;
-    for (const ImportColumn& column : mapping_.columns) {
-      if (!column.from.empty()) asked_.insert(column.from);
-      if (column.at_fault) continue;
-      made_.columns.push_back({column.key, column.to, column.from, column.unit, column.sign * column.factor,
-                               column.offset, column.delay_s, std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity(), 0, 0});
-    }
-    if (!mapping_.clock_column.empty()) asked_.insert(mapping_.clock_column);
+    ask_for_columns();
     // Where the separator is unknown, what a log holds is as well.
     if (!mapping_.separator_at_fault)
       for (const ImportDrive& drive : mapping_.drives) read_drive(drive);
@@ -85,6 +69,31 @@ class Importer {
   }
 
  private:
+  void ask_for_columns() {
+    const auto add = [&](const ImportColumn& column) {
+      made_.columns.push_back({column.key, column.to, column.from, column.unit, column.sign * column.factor,
+                               column.offset, column.delay_s, std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity(), 0, 0, column.turned,
+                               column.by_rate});
+    };
+    question_.separator = mapping_.separator;
+    for (const ImportColumn& column : mapping_.columns) {
+      if (!column.from.empty()) question_.asked.insert(column.from);
+      if (!column.at_fault) add(column);
+    }
+    if (!mapping_.clock.column.empty()) question_.texts.insert(mapping_.clock.column);
+    if (!mapping_.clock.plus_column.empty()) question_.texts.insert(mapping_.clock.plus_column);
+    if (!mapping_.attitude || mapping_.attitude->at_fault) return;
+    const auto& parts = mapping_.attitude->from;
+    question_.asked.insert(parts.begin(), parts.end());
+    for (const std::string_view angle : kAttitudeColumns)
+      add({.key = std::string(kAttitudeKey),
+           .to = std::string(angle),
+           .from = fmt::format("{}", fmt::join(parts, " ")),
+           .unit = "quaternion",
+           .delay_s = mapping_.attitude->delay_s});
+  }
+
   // Nothing where it can't be read, or is no document.
   std::optional<JsonValue> read_known() {
     const auto bytes = bytes_of(folder_ / mapping_.known);
@@ -131,91 +140,133 @@ class Importer {
       return;
     }
     const std::size_t before = faults_.size();
-    const RecordedTable table = read_recorded_table(*bytes, drive.file, mapping_.separator, asked_, faults_);
+    const RecordedTable table = read_recorded_table(*bytes, drive.file, question_, faults_);
     if (faults_.size() > before) return;
+    for (const std::string& note : table.notes) add_once(made_.notes, note);
     for (const std::string& name : table.names)
-      if (!asked_.contains(name)) passed_over_.insert(name);
-    const auto place_of = [&](const std::string& name) -> std::optional<std::size_t> {
-      const auto at = std::find(table.names.begin(), table.names.end(), name);
-      if (at != table.names.end()) return static_cast<std::size_t>(at - table.names.begin());
-      faults_.push_back(
-          {drive.file + "#/1", fmt::format("{}: {}", drive.file, unknown_name("column", name, table.names))});
-      return std::nullopt;
-    };
-    const auto clock = mapping_.clock_column.empty() ? std::nullopt : place_of(mapping_.clock_column);
-    std::vector<std::size_t> places;  // of the columns without fault
-    for (const ImportColumn& column : mapping_.columns) {
-      if (column.from.empty()) continue;
-      const auto place = place_of(column.from);
-      if (place && !column.at_fault) places.push_back(*place);
-    }
-    if (faults_.size() > before || !clock || mapping_.clock_at_fault) return;
-    convert(drive, table, *clock, places);
+      if (!question_.asked.contains(name) && !question_.texts.contains(name)) passed_over_.insert(name);
+    for (const auto& names : {question_.texts, question_.asked})
+      for (const std::string& name : names)
+        if (!table.place_of(name))
+          faults_.push_back({drive.file + "#/1",
+                             fmt::format("{}: {}", drive.file, unknown_name("column", name, table.names))});
+    if (faults_.size() > before || mapping_.clock.column.empty() || mapping_.clock.at_fault) return;
+    if (!told_of_parts_)
+      if (const auto warning = quaternion_as_angles(mapping_, table)) {
+        made_.warnings.push_back(*warning);
+        told_of_parts_ = true;
+      }
+    if (const auto warning = ticks_as_decimals(mapping_.clock, table)) add_once(made_.warnings, *warning);
+    convert(drive, table);
   }
 
-  bool read_clock(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
-                  std::vector<double>& time_s) {
-    const double unit = seconds_of(mapping_.clock_unit);
-    const double zero = mapping_.clock_from_first_row ? table.rows.front()[clock] : 0.0;
-    std::size_t bad = 0;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      const double now = table.rows[i][clock], before = i == 0 ? kMissing : table.rows[i - 1][clock];
-      time_s.push_back(unit * (now - zero));
-      if (std::isfinite(now) && !(now <= before)) continue;
-      const std::string what =
-          std::isfinite(now) ? fmt::format("{} follows {}: times must increase from row to row", now, before)
-                             : "the time is missing";
-      faults_.push_back(
-          {fmt::format("{}#/{}/{}", drive.file, table.lines[i], mapping_.clock_column),
-           fmt::format("{}, line {} ({}): {}", drive.file, table.lines[i], mapping_.clock_column, what)});
-      if (++bad >= kMaxFaultsOfFile) return false;
-    }
-    return bad == 0;
+  // Notes name no file: what is so of one log is mostly so of all.
+  static void add_once(std::vector<std::string>& notes, const std::string& note) {
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
 
-  void convert(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
-               const std::vector<std::size_t>& places) {
-    std::vector<double> time_s;
-    if (!read_clock(drive, table, clock, time_s) || drive.at_fault) return;
+  // By made_.columns, in the units of the log.
+  std::vector<std::vector<double>> recorded_of(const ImportDrive& drive, const RecordedTable& table) {
+    std::vector<std::vector<double>> recorded;
+    for (const ImportedColumn& column : made_.columns) {
+      if (column.key == kAttitudeKey) break;  // its columns are the last
+      const std::size_t place = *table.place_of(column.from);
+      std::vector<double>& values = recorded.emplace_back();
+      for (const std::vector<double>& row : table.rows) values.push_back(row[place]);
+    }
+    if (recorded.size() < made_.columns.size())
+      for (std::vector<double>& angles :
+           angles_of_quaternions(*mapping_.attitude, drive.file, table, faults_))
+        recorded.push_back(std::move(angles));
+    return recorded;
+  }
+
+  void convert(const ImportDrive& drive, const RecordedTable& table) {
+    const std::size_t before = faults_.size();
+    bool as_text = false;
+    const auto times = read_times(mapping_.clock, drive.file, table, made_.notes, as_text, faults_);
+    if (as_text) made_.clock_unit.clear();
+    const std::vector<std::vector<double>> recorded = recorded_of(drive, table);
+    if (!times || faults_.size() > before || drive.at_fault) return;
+    const std::vector<double>& time_s = *times;
     ImportedDrive made;
     made.index = drive.index;
     made.id = drive.id;
     made.file = drive.id + ".csv";
     made.log = drive.file;
     made.values.resize(made_.columns.size());
-    std::vector<std::vector<double>> recorded(places.size());
-    for (std::size_t c = 0; c < places.size(); ++c)
-      for (const std::vector<double>& row : table.rows) recorded[c].push_back(row[places[c]]);
     for (std::size_t i = 0; i < time_s.size(); ++i) {
       if ((drive.from_s && time_s[i] < *drive.from_s) || (drive.to_s && time_s[i] > *drive.to_s)) continue;
       made.time_s.push_back(time_s[i]);
       made.lines.push_back(table.lines[i]);
-      for (std::size_t c = 0; c < places.size(); ++c) {
+      for (std::size_t c = 0; c < recorded.size(); ++c) {
         const ImportedColumn& column = made_.columns[c];
-        made.values[c].push_back(column.factor * delayed(time_s, recorded[c], i, column.delay_s) +
-                                 column.offset);
+        made.values[c].push_back(
+            column.factor * delayed(time_s, recorded[c], i, column.delay_s, turn_of(column)) + column.offset);
       }
     }
+    blank_ends_of_delays(made_.columns, time_s, made);
     if (made.time_s.size() < 2) {
       faults_.push_back(
           {drive.file + "#", fmt::format("{}: drive {} has {} rows from from_s to to_s, must have 2",
                                          drive.file, drive.id, made.time_s.size())});
       return;
     }
-    if (mapping_.clock_from_first_row) {
+    if (lasts_too_long(made)) return;
+    if (mapping_.clock.from_first_row) {
       const double first_s = made.time_s.front();
       for (double& t : made.time_s) t -= first_s;
     }
+    take_out_signs_of_rates(made);
     into_map_frame(made);
     describe(drive, made);
     made_.files.emplace_back(made.file, drive_text(made));
     made_.drives.push_back(std::move(made));
   }
 
+  // Months of driving are microseconds that were taken for seconds: which is told once.
+  bool lasts_too_long(const ImportedDrive& made) {
+    constexpr double kLongest_s = 1e7;  // of a campaign's drives
+    const double lasts_s = made.time_s.back() - made.time_s.front();
+    if (lasts_s <= kLongest_s) return false;
+    if (!told_of_months_)
+      faults_.push_back(
+          {mapping_.file + "#/clock/unit",
+           fmt::format("drive {} lasts {:.3g} s by its clock {}, must be {:.0e} s at most: change the "
+                       "key clock.unit (it is {}) to that of the recorded times",
+                       made.id, lasts_s, in_quotes(mapping_.clock.column), kLongest_s,
+                       in_quotes(mapping_.clock.unit))});
+    told_of_months_ = true;
+    return true;
+  }
+
   std::vector<double>* values_of(ImportedDrive& drive, std::string_view column) const {
     for (std::size_t c = 0; c < made_.columns.size(); ++c)
       if (made_.columns[c].to == column) return &drive.values[c];
     return nullptr;
+  }
+
+  // Currents that are negative where their wheel turns backwards become positive where the motor drives.
+  void take_out_signs_of_rates(ImportedDrive& made) {
+    constexpr std::string_view kCurrent = "_current_a";
+    for (std::size_t c = 0; c < made_.columns.size(); ++c) {
+      const ImportedColumn& column = made_.columns[c];
+      if (!column.by_rate) continue;
+      const std::string rate = column.to.substr(0, column.to.size() - kCurrent.size()) + "_rate_deg_s";
+      const std::vector<double>* const rates = values_of(made, rate);
+      if (rates == nullptr) {
+        add_fault_once({fmt::format("{}#/columns/{}/signed_by", mapping_.file, column.key),
+                        fmt::format("there is no {} whose sign it could be: map it too", rate)});
+        continue;
+      }
+      for (std::size_t i = 0; i < rates->size(); ++i)
+        if ((*rates)[i] < 0.0) made.values[c][i] = -made.values[c][i];
+    }
+  }
+
+  void add_fault_once(Fault fault) {
+    if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end())
+      faults_.push_back(std::move(fault));
   }
 
   // To the campaign's map: x east, y north, z up; yaw from east to north, positive pitch nose down.
@@ -310,7 +361,10 @@ class Importer {
   ImportMapping mapping_;
   fs::path folder_;
   ImportedCampaign made_;
-  std::set<std::string> asked_, passed_over_;
+  TableQuestion question_;
+  std::set<std::string> passed_over_;
+  bool told_of_parts_ = false;   // of a quaternion
+  bool told_of_months_ = false;  // that a drive seems to last
   std::vector<Fault> faults_;
 };
 

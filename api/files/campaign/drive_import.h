@@ -17,6 +17,7 @@ struct ImportedColumn {
   double factor = 1.0, offset = 0.0, delay_s = 0.0;  // the sign in the factor
   double lowest = 0.0, highest = 0.0;
   std::size_t values = 0, missing = 0;
+  bool turned = false, by_rate = false;  // as in ImportColumn
 };
 
 struct ImportedDrive {
@@ -36,12 +37,16 @@ struct ImportedCampaign {
   std::string name;
   std::string mapping_file;                // its name beside the logs
   std::string known_file, known_document;  // what was known before: its name and bytes
+  std::vector<WheelNames> wheels;          // that {w} stands for
+  std::string clock_unit;                  // of numbers; "" where times are text
   std::vector<ImportedColumn> columns;
   bool from_ned = false;  // recorded x north, y east, z down
   std::vector<ImportedDrive> drives;
   std::vector<std::string> passed_over;                    // columns of the files that nothing asked for
   std::vector<std::pair<std::string, std::string>> files;  // campaign.json and the drives': name, bytes
   std::vector<std::filesystem::path> copied;               // rasters that the known terrains name
+  std::vector<std::string> notes;     // how logs were read, where it can be read in another way
+  std::vector<std::string> warnings;  // what logs show themselves, before a campaign is made of them
   // Of the mapping, the logs and what was known. Drives and columns at fault are not in the campaign; where
   // `files` has no campaign.json, none could be made.
   std::vector<Fault> faults;

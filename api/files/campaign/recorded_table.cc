@@ -1,104 +1,158 @@
 #include "api/files/campaign/recorded_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "api/json/faults.h"
 #include "core/csv_cells.h"
+#include "core/fault_words.h"
+#include "core/text_table.h"
 
 namespace slipway::api {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
+// A kind of fault of a column, and where it is.
+struct Kind {
+  std::string column, first;  // the words of the first of them
+  std::vector<std::size_t> lines;
+};
+
 class TableReader {
  public:
-  TableReader(std::string file, char separator, std::vector<Fault>& faults)
-      : file_(std::move(file)), separator_(separator), faults_(faults) {}
+  TableReader(std::string file, const TableQuestion& question, std::vector<Fault>& faults)
+      : file_(std::move(file)), question_(question), faults_(faults) {}
 
-  // Only cells of the columns that are asked for must be numbers.
-  RecordedTable read(std::string_view bytes, const std::set<std::string>& asked) {
-    const std::vector<CsvLine> lines = csv_lines(bytes);
-    RecordedTable table;
-    if (lines.size() < 3) {
-      fault("",
-            fmt::format("{} has {} lines, must have a header and two rows at least", file_, lines.size()));
-      return table;
+  RecordedTable read(std::string_view bytes) {
+    auto text = read_text_table(bytes, file_, {.separator = question_.separator});
+    if (!text) {
+      for (const Fault& fault : text.error().faults)
+        faults_.push_back({file_ + "#", fault.pointer + ": " + fault.message});
+      if (text.error().faults.empty()) faults_.push_back({file_ + "#", file_ + ": " + text.error().detail});
+      return {};
     }
-    for (const std::string_view name : csv_cells(lines[0].text, separator_))
-      table.names.emplace_back(unquoted(name));
-    if (table.names.size() == 1 && !asked.contains(table.names.front())) {
-      const auto wrong = wrong_separator(lines[0].text, separator_);
-      fault("/1", fmt::format("{}, line {}, column 1: {}: change the key separator of the mapping", file_,
-                              lines[0].number, wrong.value_or("the header is a single column")));
-      return table;
+    if (text->rows() < 2) {
+      faults_.push_back({file_ + "#", fmt::format("{} has {} rows below the header, must have two at least",
+                                                  file_, text->rows())});
+      return {};
     }
-    refuse_twins(lines[0].number, asked, table.names);
-    for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
-    if (count_ > kMaxFaultsOfFile)
+    table_.names = text->names();
+    table_.notes = text->notes();
+    if (table_.names.size() == 1 && !is_known(table_.names.front())) {
+      const auto wrong = wrong_separator(table_.names.front(), text->separator());
       faults_.push_back(
-          {file_ + "#", fmt::format("{}: {} faults more like these", file_, count_ - kMaxFaultsOfFile)});
-    return table;
+          {file_ + "#/1",
+           fmt::format("{}, line {}, column 1: {}: change the key separator of the mapping", file_,
+                       text->header_line(), wrong.value_or("the header is a single column"))});
+      return {};
+    }
+    refuse_twins(text->header_line());
+    for (std::size_t row = 0; row < text->rows(); ++row) read_row(*text, row);
+    report();
+    return std::move(table_);
   }
 
  private:
-  static std::string_view unquoted(std::string_view name) {
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
-    return name;
+  bool is_known(const std::string& name) const {
+    return question_.asked.contains(name) || question_.texts.contains(name);
   }
 
-  void fault(const std::string& place, const std::string& message) {
-    if (++count_ <= kMaxFaultsOfFile) faults_.push_back({file_ + "#" + place, message});
+  void add(const std::string& column, std::size_t line, std::string_view kind, std::string words) {
+    Kind& of = kinds_[{column, std::string(kind)}];
+    if (of.lines.empty()) of = {column, std::move(words), {}};
+    of.lines.push_back(line);
   }
 
-  // Which of two columns of one name is meant, nobody can say.
-  void refuse_twins(std::size_t line, const std::set<std::string>& asked,
-                    const std::vector<std::string>& names) {
-    for (const std::string& name : asked)
-      if (const auto count = std::count(names.begin(), names.end(), name); count > 1)
-        fault(fmt::format("/{}/{}", line, name),
-              fmt::format("{}, line {} ({}): {} columns have this name, must be one: rename the others",
-                          file_, line, name, count));
-  }
-
-  void read_row(const CsvLine& line, const std::set<std::string>& asked, RecordedTable& table) {
-    const std::vector<std::string_view> cells = csv_cells(line.text, separator_);
-    if (cells.size() != table.names.size())
-      return fault(fmt::format("/{}", line.number),
-                   fmt::format("{}, line {}: {} cells, must have {} as the header", file_, line.number,
-                               cells.size(), table.names.size()));
-    table.lines.push_back(line.number);
-    std::vector<double>& row = table.rows.emplace_back();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      row.push_back(kMissing);
-      if (!asked.contains(table.names[c]) || is_missing(cells[c])) continue;
-      if (const auto number = csv_number(cells[c]))
-        row.back() = *number;
-      else
-        fault(fmt::format("/{}/{}", line.number, table.names[c]),
-              fmt::format("{}, line {} ({}): {} is no finite number", file_, line.number, table.names[c],
-                          in_quotes(cells[c])));
+  void report() {
+    for (const auto& [key, kind] : kinds_) {
+      const std::string place = kind.column.empty() ? "" : fmt::format(" ({})", kind.column);
+      faults_.push_back(
+          {fmt::format("{}#/{}{}{}", file_, kind.lines.front(), kind.column.empty() ? "" : "/", kind.column),
+           fmt::format("{}, line {}{}: {}{}", file_, kind.lines.front(), place, kind.first,
+                       other_lines(kind.lines))});
     }
   }
 
-  static bool is_missing(std::string_view cell) {
-    return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA" || cell == "null";
+  // Which of two columns of one name is meant, nobody can say.
+  void refuse_twins(std::size_t line) {
+    const auto refuse = [&](const std::string& name) {
+      if (const auto count = std::count(table_.names.begin(), table_.names.end(), name); count > 1)
+        add(name, line, "twins",
+            fmt::format("{} columns have this name, must be one: rename the others", count));
+    };
+    for (const std::string& name : question_.asked) refuse(name);
+    for (const std::string& name : question_.texts) refuse(name);
+  }
+
+  void read_row(const TextTable& text, std::size_t at) {
+    const std::vector<std::string> cells = text.cells(at);
+    const std::size_t line = text.line(at);
+    if (cells.size() != table_.names.size())
+      return add("", line, "cells",
+                 fmt::format("{} cells, must have {} as the header", cells.size(), table_.names.size()));
+    std::vector<double> row;
+    std::size_t numbers = 0;
+    std::vector<std::size_t> words;  // cells that should be numbers and are none
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      row.push_back(is_missing_cell(cells[c]) ? kMissing : text.number(cells[c]).value_or(kMissing));
+      if (!question_.asked.contains(table_.names[c]) || is_missing_cell(cells[c])) continue;
+      if (std::isfinite(row.back()))
+        ++numbers;
+      else
+        words.push_back(c);
+    }
+    if (at == 0 && numbers == 0 && words.size() > 1) {
+      table_.notes.emplace_back(
+          "The line below the header has words and no numbers, units it seems: it is passed over.");
+      return;
+    }
+    for (const std::size_t c : words)
+      add(table_.names[c], line, "number",
+          fmt::format("{} is no finite number; a cell without a value must be empty", in_quotes(cells[c])));
+    keep(std::move(row), line, cells);
+  }
+
+  void keep(std::vector<double> row, std::size_t line, const std::vector<std::string>& cells) {
+    table_.rows.push_back(std::move(row));
+    table_.lines.push_back(line);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (question_.texts.contains(table_.names[c])) table_.texts[table_.names[c]].push_back(cells[c]);
   }
 
   std::string file_;
-  char separator_;
+  const TableQuestion& question_;
   std::vector<Fault>& faults_;
-  std::size_t count_ = 0;
+  RecordedTable table_;
+  std::map<std::pair<std::string, std::string>, Kind> kinds_;  // by column and kind
 };
 
 }  // namespace
 
-RecordedTable read_recorded_table(std::string_view bytes, const std::string& file, char separator,
-                                  const std::set<std::string>& asked, std::vector<Fault>& faults) {
-  return TableReader(file, separator, faults).read(bytes, asked);
+std::optional<std::size_t> RecordedTable::place_of(std::string_view name) const {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - names.begin());
+}
+
+RecordedTable read_recorded_table(std::string_view bytes, const std::string& file,
+                                  const TableQuestion& question, std::vector<Fault>& faults) {
+  return TableReader(file, question, faults).read(bytes);
+}
+
+std::string other_lines(const std::vector<std::size_t>& lines) {
+  constexpr std::size_t kNamed = 4;  // one by one, behind the first
+  if (lines.size() < 2) return "";
+  const std::size_t end = std::min(lines.size(), kNamed + 1);
+  std::string words =
+      fmt::format("; so it is in {} {}", lines.size() == 2 ? "line" : "lines",
+                  fmt::join(lines.begin() + 1, lines.begin() + static_cast<std::ptrdiff_t>(end), ", "));
+  if (lines.size() > end) words += fmt::format(" and {} more", lines.size() - end);
+  return words;
 }
 
 }  // namespace slipway::api

@@ -3643,8 +3643,19 @@ export interface components {
             unknown_share: number;
             source_sha256: string;
             elevation_sha256: string;
+            /** @description What the numbers of the map were read as: band, unit, scale, offset, nodata, vertical datum */
+            reading: string;
             /** @description What was mended */
             changes: string[];
+            /** @description What nobody stated, and how it was taken */
+            on_trust: string[];
+            /** @description What is likely wrong with the map */
+            warnings: string[];
+            /** @description In degrees of the body, from the north-west clockwise */
+            corners: {
+                longitude_deg: number;
+                latitude_deg: number;
+            }[];
             /** @description Classes of the soil map that the legend does not name */
             unlisted_classes: string[];
         };

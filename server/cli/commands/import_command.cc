@@ -69,6 +69,7 @@ std::string import_words(const api::ImportedCampaign& campaign, const gap::Drive
   out += "\n" + drives_words(campaign);
   if (!campaign.passed_over.empty())
     out += fmt::format("\nnot asked for: {}\n", fmt::join(campaign.passed_over, ", "));
+  for (const std::string& note : campaign.notes) out += "note: " + note + "\n";
   for (const std::string& note : read.notes) out += "note: " + note + "\n";
   for (const std::string& warning : api::implausible_readings(campaign, read))
     out += "warning: " + warning + "\n";

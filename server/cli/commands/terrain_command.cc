@@ -35,8 +35,8 @@ void add_import(CLI::App& terrain, std::function<int()>& run) {
   command
       ->add_option("DEM", order.elevation, "elevation map: GeoTIFF, ASCII grid, PDS, PDS4, ISIS, ENVI, EHdr")
       ->required();
-  CLI::Option* const soil = command->add_option("--soil", options->soil,
-                                                "map of classes (a raster), or polygons of units (.geojson)");
+  CLI::Option* const soil = command->add_option(
+      "--soil", options->soil, "map of classes (a raster), or polygons of units (.geojson, .shp, .gpkg)");
   command
       ->add_option("--legend", options->legend,
                    "CSV value,label,soil: which soil each class is believed to be")
@@ -58,6 +58,15 @@ void add_import(CLI::App& terrain, std::function<int()>& run) {
   command->add_option("--source", order.source, "where the map comes from, for PROVENANCE.md");
   command->add_option("--crs", order.crs,
                       "the map's system where the file names none or a wrong one: PROJ, WKT or a code");
+  command
+      ->add_option("--band", order.band,
+                   "the band of heights, where the map has several and says of none that it is")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--unit", order.unit,
+                      "unit of the heights where the map names none or a wrong one: m, ft, us-ft, km");
+  command->add_option("--nodata", order.nodata,
+                      "also marks a missing height, as the file stores it, beside what the file says");
+  command->add_flag("--strict", order.strict, "refuse a map that there is a warning of");
   command->add_flag("--fix", order.fix,
                     "mend what can be mended: degrees, feet, south-up or rotated grids, lengths that are not "
                     "the ground's");

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "api/chart/drive_history.h"
-#include "api/export/answer_vectors.h"
 #include "api/documents/drive_commands.h"
+#include "api/export/answer_vectors.h"
+#include "api/export/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
-#include "api/export/station_csv.h"
 #include "dem/body_degrees.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/terminal/terminal_progress.h"
@@ -54,6 +54,24 @@ Result<std::string> commands_of(const std::string& answer, const Pictures& pictu
   return *request + "\n";
 }
 
+// The fault of a place in degrees; nothing where it was brought to the map.
+std::optional<std::string> bring_place(PlaceOption& place, const api::json::AnswerMap& map,
+                                       const dem::BodyDegrees& degrees) {
+  const dem::MapPlace given{place.x_m, place.y_m};
+  const bool possible = std::abs(given.x) <= 720.0 && std::abs(given.y) <= 90.0;
+  std::optional<dem::MapPlace> found;
+  if (possible) found = degrees.to_map(given);
+  std::string meant;
+  if (map.extent && !(found && map.extent->contains(found->x, found->y)))
+    meant = dem::likely_mistake(map.crs_wkt, map.body, *map.extent, given, true);
+  if (meant.empty() && !possible) meant = ": these are map metres";
+  if (!found || !meant.empty())
+    return fmt::format("{},{} is no longitude,latitude in degrees on this map{}", given.x, given.y, meant);
+  place.x_m = found->x;
+  place.y_m = found->y;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Pictures pictures_of(const DriveOptions& drive) {
@@ -70,20 +88,10 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
   if (!service) return fail(service.error());
   const auto map = map_of(**service, terrain);
   if (!map) return fail(map.error());
-  const dem::BodyDegrees degrees(map->crs_wkt, map->body);
+  const dem::BodyDegrees degrees(map->crs_wkt, map->body, map->extent);
   std::vector<Fault> faults;
-  for (PlaceOption* const place : places) {
-    const bool possible = std::abs(place->x_m) <= 360.0 && std::abs(place->y_m) <= 90.0;
-    const auto found = possible ? degrees.to_map({place->x_m, place->y_m}) : std::nullopt;
-    if (found) {
-      place->x_m = found->x;
-      place->y_m = found->y;
-    } else {
-      faults.push_back(
-          {"--lonlat", fmt::format("{},{} is no longitude,latitude in degrees on this map{}", place->x_m,
-                                   place->y_m, possible ? "" : ": these are map metres")});
-    }
-  }
+  for (PlaceOption* const place : places)
+    if (auto fault = bring_place(*place, *map, degrees)) faults.push_back({"--lonlat", *std::move(fault)});
   if (!faults.empty())
     return fail(ErrorCode::kInvalidRequest, "Places can't be brought to the map.", std::move(faults));
   return {};

@@ -11,8 +11,11 @@ struct ImpossibleHeights {
   bool are_radii = false;     // so large is the first of them
 
   void look_at(double height_m, double stored, bool is_scaled);
-  // What is wrong, with the command that mends it.
-  std::string fault(const std::string& file) const;
+  // What is wrong, with the command that mends it. has_nodata: the file declares another mark already, which
+  // gdal_translate would replace.
+  std::string fault(const std::string& file, bool has_nodata) const;
 };
+
+constexpr double kLeastRadius_m = 1e6;  // heights as large as this are distances from a body's centre
 
 }  // namespace slipway::dem

@@ -1,4 +1,4 @@
-#include "dem/gdal_impossible_heights.h"
+#include "dem/import/gdal_impossible_heights.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@ namespace {
 constexpr double kDeepest_m = -12'000.0, kHighest_m = 30'000.0;
 constexpr double kUsualMark = -9999.0;     // of cells without a height; some files forget to say so
 constexpr double kLeastStored = -32768.0;  // of integers that are scaled: the usual mark there
-constexpr double kLeastRadius_m = 1e6;     // heights as large as this are distances from a body's centre
 
 }  // namespace
 
@@ -24,20 +23,16 @@ void ImpossibleHeights::look_at(double height_m, double stored, bool is_scaled) 
   }
 }
 
-std::string ImpossibleHeights::fault(const std::string& file) const {
-  const std::string in = shell_word(file), out = shell_word(converted_name(file));
+std::string ImpossibleHeights::fault(const std::string& file, bool has_nodata) const {
   // The figures that tell one float from the next.
   std::string told = fmt::format("{} has {} cells whose height no ground has, the first with {:.9g}.", file,
                                  cells, first_stored);
-  told += fmt::format(
-      " If that marks a missing height, say so in the file: gdal_translate -a_nodata {:.9g} {} {}.",
-      first_stored, in, out);
   if (are_radii)
-    told += fmt::format(
-        " If these are distances from the body's centre, take the radius of the map's sphere off instead: "
-        "gdal_calc.py -A {} --calc='A.astype(float)-RADIUS' --type=Float32 --outfile={}",
-        in, out);
-  return told;
+    told += " If these are distances from the body's centre, make them heights above its ellipsoid first.";
+  told += fmt::format(" If that marks a missing height, import it with --nodata {:.9g}", first_stored);
+  if (has_nodata) return told + ".";
+  return told + fmt::format(", or say so in the file: gdal_translate -a_nodata {:.9g} {} {}.", first_stored,
+                            shell_word(file), shell_word(converted_name(file)));
 }
 
 }  // namespace slipway::dem
