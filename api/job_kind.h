@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "api/export/station_csv.h"
 #include "api/jobs/job_runner.h"
 #include "api/plan_reference.h"
-#include "api/export/station_csv.h"
 #include "api/service.h"
 
 namespace slipway::api {

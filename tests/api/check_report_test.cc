@@ -9,9 +9,9 @@
 #include "api/chart/chart.h"
 #include "api/documents/check_answer.h"
 #include "api/documents/plan_answer.h"
+#include "api/export/station_csv.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
-#include "api/export/station_csv.h"
 #include "small_world.h"
 
 namespace slipway::api {

@@ -7,10 +7,10 @@
 
 #include "api/documents/drive_series.h"
 #include "api/documents/prediction_answer.h"
+#include "api/export/station_csv.h"
 #include "api/job_kinds.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
-#include "api/export/station_csv.h"
 #include "small_world.h"
 
 namespace slipway::api {

@@ -11,12 +11,12 @@
 
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/soil/wheel_sweep_answer.h"
+#include "api/export/station_csv.h"
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
 #include "api/report/check_report.h"
 #include "api/report/route_map.h"
-#include "api/export/station_csv.h"
 #include "api/service.h"
 #include "api/wheel_sweep.h"
 #include "server/cli/inquiry/data_folder.h"
