@@ -22,6 +22,7 @@ using GeoTransform = std::array<double, 6>;
 class Refusals {
  public:
   void add(const Error& error, bool mendable) { found_.push_back({error.code, error.detail, mendable}); }
+  void add(RasterFault fault) { found_.push_back(std::move(fault)); }
   void add(const std::string& sentence, bool mendable = false) {
     found_.push_back({ErrorCode::kUnreadableRaster, sentence, mendable});
   }
@@ -78,11 +79,13 @@ void check_band(GDALDataset& dataset, const std::string& file, int chosen, Refus
   // Doubles: the product of two large blocks overflows even 64-bit integers in a forged header.
   const double bytes = static_cast<double>(block_columns) * block_rows * GDALGetDataTypeSizeBytes(type);
   if (!(block_columns > 0 && block_rows > 0 && bytes <= static_cast<double>(kMaxBlockBytes))) {
-    refusals.add(
-        fmt::format("{} is stored in blocks of {} x {} cells, {:.0f} MB each, must be at most {} MB. Convert "
-                    "it with: gdal_translate -co TILED=YES -co COMPRESS=DEFLATE {} {}",
-                    file, block_rows, block_columns, bytes / 1e6, kMaxBlockBytes / 1'000'000,
-                    shell_word(file), shell_word(converted_name(file))));
+    refusals.add(RasterFault{
+        .sentence = fmt::format(
+            "{} is stored in blocks of {} x {} cells, {:.0f} MB each, must be at most {} MB. Convert "
+            "it with: gdal_translate -co TILED=YES -co COMPRESS=DEFLATE {} {}",
+            file, block_rows, block_columns, bytes / 1e6, kMaxBlockBytes / 1'000'000, shell_word(file),
+            shell_word(converted_name(file))),
+        .cells_are_closed = true});
   }
 }
 

@@ -24,8 +24,9 @@ struct CheckedRaster {
 // A reason why a raster can't be used as it is.
 struct RasterFault {
   ErrorCode code = ErrorCode::kUnreadableRaster;
-  std::string sentence;   // with the command that mends it
-  bool mendable = false;  // an import can mend it
+  std::string sentence;           // with the command that mends it
+  bool mendable = false;          // an import can mend it
+  bool cells_are_closed = false;  // no cell can be read before it is mended
 };
 
 // Opens a regular file with an allowed driver, read-only, with what the sidecars NAME.aux.xml, NAME.msk and

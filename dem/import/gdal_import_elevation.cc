@@ -33,6 +33,11 @@ struct Opened {
   void add(const Error& error, bool mendable) { faults.push_back({error.code, error.detail, mendable}); }
 };
 
+bool cells_are_open(const Opened& map) {
+  return std::none_of(map.faults.begin(), map.faults.end(),
+                      [](const RasterFault& fault) { return fault.cells_are_closed; });
+}
+
 // Where heights are distances from the middle of the map's sphere, its radius is taken off them.
 void measure_from_sphere(Opened& map) {
   if (!map.crs || map.crs->GetSemiMajor() != map.crs->GetSemiMinor()) return;
@@ -89,10 +94,7 @@ void examine_band(Opened& map, const ElevationImport& order, const OGRSpatialRef
   if (!map.band.why.empty())
     map.arrangement.changes.push_back(
         fmt::format("band {} was taken of several, {}", map.band.number, map.band.why));
-  const bool is_readable = std::none_of(map.faults.begin(), map.faults.end(), [](const RasterFault& fault) {
-    return fault.sentence.find("stored in blocks") != std::string::npos;
-  });
-  if (is_readable) measure_from_sphere(map);
+  if (cells_are_open(map)) measure_from_sphere(map);
 }
 
 // What is wrong with the system and the grid, and how they are brought into metres.
@@ -174,8 +176,7 @@ Result<void> reproject(const fs::path& arranged, const fs::path& out, Arrangemen
 // What one cell-reading pass finds, where other faults stand in the way already.
 void add_cell_faults(Opened& map, const GdalSession& session, Progress& progress) {
   if (map.dataset->GetRasterCount() < 1) return;
-  for (const RasterFault& fault : map.faults)
-    if (fault.sentence.find("stored in blocks") != std::string::npos) return;  // too large to be read
+  if (!cells_are_open(map)) return;
   if (const auto scan = scan_heights(map.source(), session, progress); !scan) map.add(scan.error(), false);
 }
 
