@@ -17,6 +17,7 @@ if(SLIPWAY_BUILD_RESEARCH)
   install(DIRECTORY data/gap-practice data/validation DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT research)
 endif()
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
+install(FILES clients/python/slipway_client.py DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/clients/python COMPONENT tools)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
 
 # slipway::sim and its neighbours. A header is included as here: #include "sim/soil/soil.h".

@@ -28,6 +28,12 @@ expect 0 "$slipway" diagnose "$folder/few/p05" --data "$data" --json --report "$
 cp "$folder/out" "$folder/first.json"
 cmp "$folder/first.json" "$folder/report/diagnosis.json"
 # A report that can't be written is refused before the work.
+# A shipped campaign is named anywhere; a folder of that name without a campaign does not stand in its way.
+mkdir "$folder/elsewhere" "$folder/elsewhere/p05"
+status=0
+(cd "$folder/elsewhere" && "$slipway" diagnose p05 --reference nowhere --data "$data" >"$folder/out" 2>"$folder/err") || status=$?
+[ "$status" = 2 ] || { echo "status $status"; exit 1; }
+holds 'there is no folder "nowhere"' "$folder/err"
 expect 1 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --json --report "$folder/first.json/report"
 [ ! -s "$folder/out" ]
 python3 - "$folder" <<'CHECK'

@@ -30,6 +30,7 @@
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/commands/watch_command.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/data_option.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -240,9 +241,10 @@ Result<void> clear_model(const std::string& folder, bool is_offered) {
 int diagnose(const DiagnoseCommand& options) {
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
+  const auto campaign = api::load_drive_campaign(campaign_folder(options.campaign, options.data), *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
-  const auto reference = api::load_reference_drives(options.reference, *catalogue);
+  const auto reference =
+      api::load_reference_drives(campaign_folder(options.reference, options.data), *catalogue);
   if (!reference) return refuse_unreadable(reference.error());
   // What can't be written is known before the work.
   if (!options.report.empty())
@@ -297,7 +299,9 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command = app.add_subcommand(
       "diagnose",
       "where prediction and recorded drives part, which effect is missing, how far the gap closes");
-  command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
+  command
+      ->add_option("campaign", options->campaign, "folder of a drive campaign, or the name of a shipped one")
+      ->required();
   add_data_option(*command, options->data, "rovers and soils");
   command->add_option(
       "--reference", options->reference,
@@ -329,9 +333,9 @@ void add_watch_command(CLI::App& app, std::function<int()>& run) {
       "watch",
       "whether drives, in their order, still are what healthy ones were: since when, and what changed");
   command
-      ->add_option(
-          "campaign", options->campaign,
-          "folder of a drive campaign, its drives in their order; or a table of measured steps (*.csv)")
+      ->add_option("campaign", options->campaign,
+                   "folder of a drive campaign, its drives in their order, or the name of a shipped one; or "
+                   "a table of measured steps (*.csv)")
       ->required();
   command->add_option("--rover", options->rover, "rover that made the steps of a table")
       ->capture_default_str();

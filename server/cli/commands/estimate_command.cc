@@ -25,6 +25,7 @@
 #include "core/largest_exact_whole.h"
 #include "server/cli/commands/belief_command.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/data_option.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -276,7 +277,8 @@ int estimate(const EstimateCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   std::optional<Result<api::SoilEstimateAnswer>> answer;
   if (options.from == From::kDrives) {
-    const auto campaign = api::load_drive_campaign(options.files.front(), *catalogue);
+    const auto campaign =
+        api::load_drive_campaign(campaign_folder(options.files.front(), options.ask.data), *catalogue);
     if (!campaign) return refuse_unreadable(campaign.error());
     request->campaign = campaign->name;
     TerminalProgress progress;

@@ -15,6 +15,7 @@
 #include "api/requests/model_check.h"
 #include "core/largest_exact_whole.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/data_option.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -57,7 +58,7 @@ std::string answer_words(const api::ModelCheckAnswer& answer) {
 int test_model(const TestModelCommand& options) {
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
+  const auto campaign = api::load_drive_campaign(campaign_folder(options.campaign, options.data), *catalogue);
   const auto model = api::load_model_folder(options.model);
   // The faults of both are printed, not those of the first alone.
   const int unread = campaign ? 0 : refuse_unreadable(campaign.error());
@@ -79,7 +80,9 @@ void add_test_model_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<TestModelCommand>();
   CLI::App* command = app.add_subcommand(
       "test-model", "how well a corrected model predicts the drives of a campaign that it was not made of");
-  command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
+  command
+      ->add_option("campaign", options->campaign, "folder of a drive campaign, or the name of a shipped one")
+      ->required();
   command
       ->add_option("--model", options->model,
                    "folder of a corrected model, as slipway diagnose --model writes it")

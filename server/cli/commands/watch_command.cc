@@ -13,6 +13,7 @@
 #include "api/report/watch_report.h"
 #include "gap/diagnosis/drive_watch.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/exit_status.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -59,9 +60,10 @@ int watch(const WatchCommand& options) {
   if (options.campaign.ends_with(".csv")) return watch_steps(options);
   const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
+  const auto campaign = api::load_drive_campaign(campaign_folder(options.campaign, options.data), *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
-  const auto reference = api::load_reference_drives(options.reference, *catalogue);
+  const auto reference =
+      api::load_reference_drives(campaign_folder(options.reference, options.data), *catalogue);
   if (!reference) return refuse_unreadable(reference.error());
   // What can't be written is known before the work.
   if (!options.report.empty())

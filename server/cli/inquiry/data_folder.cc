@@ -69,6 +69,18 @@ Result<std::string> data_folder(const std::string& option) {
   return std::move(found->path);
 }
 
+fs::path campaign_folder(const std::string& given, const std::string& data_option) {
+  std::error_code error;
+  const bool is_plain_name = !given.empty() && fs::path(given).filename() == given;
+  if (!is_plain_name || fs::exists(fs::path(given) / "campaign.json", error)) return given;
+  const auto data = data_folder(data_option);
+  if (!data) return given;
+  for (const char* const part : {"gap-practice", "drive-campaigns"})
+    if (const fs::path shipped = fs::path(*data) / part / given; fs::exists(shipped / "campaign.json", error))
+      return shipped;
+  return given;
+}
+
 std::string left_out_text(const api::Catalogue& catalogue) {
   std::string text;
   for (const api::LeftOutFile& file : catalogue.left_out) {

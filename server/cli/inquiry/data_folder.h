@@ -33,6 +33,10 @@ DataPlaces data_places(const std::string& option);
 // The folder to work with, `option` being what --data gave. Errors as above.
 Result<std::string> data_folder(const std::string& option);
 
+// The folder of a drive campaign that a command names: as it is typed or, where there is no such folder, the
+// shipped campaign of this name (`p05`), as requests name it. What is neither stays as it was typed.
+std::filesystem::path campaign_folder(const std::string& given, const std::string& data_option);
+
 // A line for each file of the folder that is left out, for standard error.
 std::string left_out_text(const api::Catalogue& catalogue);
 
