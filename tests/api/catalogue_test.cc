@@ -223,6 +223,30 @@ TEST(SoilFile, ChecksWhatHoldsBetweenTheNumbers) {
   EXPECT_EQ(with("2300000", "2495", triangle).error().faults.front().pointer, "/soils/0/correlation");
 }
 
+TEST(SoilFile, WhatABevameterDoesNotMeasureIsAssumedAndSaid) {
+  const auto with = [](const std::string& more) {
+    const auto soils = json::read_soil_file(
+        R"({"format":"soils/1","soils":[{"name":"s","summary":"s","source":"s","k_c":1000,"k_phi":1.5e6,)"
+        R"("n":1.1,"cohesion_pa":1000,"friction_angle_deg":30)" +
+        more + "}]}");
+    EXPECT_TRUE(soils) << (soils ? "" : soils.error().detail);
+    return soils ? soils->front() : sim::SoilDistribution{};
+  };
+  const sim::SoilDistribution five = with("");
+  EXPECT_EQ(five.mean.shear_modulus_x_m, 0.0152);
+  EXPECT_EQ(five.mean.shear_modulus_y_m, 0.0152);
+  EXPECT_EQ(five.mean.c1, 0.18);
+  EXPECT_EQ(five.std.cohesion_pa, 300.0);
+  EXPECT_EQ(five.std.shear_modulus_ratio, 0.5) << "K may be half or twice as large";
+  EXPECT_EQ(five.slip_error, 0.5);
+  EXPECT_EQ(five.assumed.size(), 7U);
+  const sim::SoilDistribution six = with(R"(,"shear_modulus_x_m":0.02,"assumed":["n"])");
+  EXPECT_EQ(six.std.shear_modulus_ratio, 0.25);
+  EXPECT_EQ(six.slip_error, 0.0);
+  EXPECT_EQ(six.assumed.size(), 6U);
+  EXPECT_EQ(six.assumed.front(), "n");
+}
+
 TEST(SoilFile, TheClosuresHaveACorrelationOfTheirOwnThatIsWrittenAgain) {
   const auto with = [](const std::string& pair) {
     return json::read_soil_file(
