@@ -49,8 +49,13 @@ bool read_number(const JsonValue& value, const std::string& pointer, std::string
     return false;
   }
   if (!in_range(value.number, rule)) {
-    faults.push_back({pointer, fmt::format("{} = {}{}, must be {}", label, value.number, with_unit(rule.unit),
-                                           range_text(rule))});
+    const bool is_percent =
+        rule.unit == "1" && rule.highest == 1.0 && value.number > 1.0 && value.number <= 100.0;
+    faults.push_back(
+        {pointer,
+         fmt::format(
+             "{} = {}{}, must be {}{}", label, value.number, with_unit(rule.unit), range_text(rule),
+             is_percent ? fmt::format("; {} % is {}", value.number, value.number / 100.0) : std::string())});
     return false;
   }
   out = value.number;
