@@ -67,6 +67,17 @@ expect 0 "$slipway" rovers --data "$folder/data"
 holds 'rover broken is left out' "$folder/err"
 expect 2 "$slipway" wheel --data "$folder/data" --rover broken --soil jlu_mars_2_dense --load 100
 holds 'rovers/broken.json is left out' "$folder/err"
+echo '{}' >"$folder/data/soils/broken.json"
+expect 0 "$slipway" rovers --data "$folder/data"
+holds '^2 files of the data folder are left out: rover broken, ' "$folder/err"
+[ "$(grep -c 'left out' "$folder/err")" = 1 ] || { cat "$folder/err"; exit 1; }
+rm "$folder/data/soils/broken.json"
+expect 2 "$slipway" plam
+holds 'did you mean "plan"' "$folder/err"
+expect 2 "$slipway" check --path 0,0 1,1 --max-slope 20
+holds 'unknown option --max-slope, did you mean --max-slip' "$folder/err"
+expect 2 "$slipway" check --data "$folder/data" --path 8142566,-276711 8142566,-276696 --max-slip 40
+holds '40 % is 0.4' "$folder/err"
 rm "$folder/data/rovers/broken.json"
 echo 'II*' >"$folder/data/terrains/gale/elevation.tif"
 expect 2 "$slipway" data check --data "$folder/data" --json

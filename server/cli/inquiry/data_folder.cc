@@ -1,7 +1,9 @@
 #include "server/cli/inquiry/data_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -82,14 +84,22 @@ fs::path campaign_folder(const std::string& given, const std::string& data_optio
 }
 
 std::string left_out_text(const api::Catalogue& catalogue) {
-  std::string text;
-  for (const api::LeftOutFile& file : catalogue.left_out) {
-    const Fault& first = file.faults.front();
-    text += fmt::format("{} {} is left out: {}: {}", file.kind, file.name, first.pointer, first.message);
-    if (file.faults.size() > 1) text += fmt::format(", and {} more faults", file.faults.size() - 1);
-    text += "; \"slipway data check\" lists them\n";
+  const std::vector<api::LeftOutFile>& files = catalogue.left_out;
+  if (files.empty()) return {};
+  if (files.size() > 1) {
+    constexpr std::size_t kMostNamed = 5;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min(files.size(), kMostNamed); ++i)
+      names.push_back(fmt::format("{} {}", files[i].kind, files[i].name));
+    return fmt::format("{} files of the data folder are left out: {}{}; \"slipway data check\" says why\n",
+                       files.size(), fmt::join(names, ", "), files.size() > kMostNamed ? ", ..." : "");
   }
-  return text;
+  const Fault& first = files.front().faults.front();
+  std::string text = fmt::format("{} {} is left out: {}: {}", files.front().kind, files.front().name,
+                                 first.pointer, first.message);
+  if (files.front().faults.size() > 1)
+    text += fmt::format(", and {} more faults", files.front().faults.size() - 1);
+  return text + "; \"slipway data check\" lists them\n";
 }
 
 std::string version_text() {

@@ -37,7 +37,8 @@ Result<std::string> data_folder(const std::string& option);
 // shipped campaign of this name (`p05`), as requests name it. What is neither stays as it was typed.
 std::filesystem::path campaign_folder(const std::string& given, const std::string& data_option);
 
-// A line for each file of the folder that is left out, for standard error.
+// In a line, for standard error: the one file of the folder that is left out with its first fault, or how
+// many there are.
 std::string left_out_text(const api::Catalogue& catalogue);
 
 // What --version prints: the program's version, then the data folder and how it was found, or where it was
