@@ -197,7 +197,7 @@ std::string csv_of(const std::vector<WorldScore>& scores) {
     text += fmt::format("{},{},{},{},{}", s.world, s.planner, s.route, s.truth, s.decision);
     for (const NumberColumn& column : kNumbers)
       text += column.whole != nullptr ? fmt::format(",{}", s.*column.whole)
-                                      : fmt::format(",{:.6g}", s.*column.real);
+                                      : fmt::format(",{}", s.*column.real);
     text += "\n";
   }
   return text;
