@@ -302,7 +302,10 @@ def rover_schema():
 
 def soils_schema():
     example = root / "docs/guide/examples/bevameter_soil.json"
-    soil = json.loads(example.read_text())["soils"][0]
+    # What a soil may leave out is given here, and left out again by the changes.
+    soil = {**json.loads(example.read_text())["soils"][0], "assumed": ["n"], "shear_modulus_x_m": 0.02, "density_kg_m3": 1500.0,
+            "c1": 0.18, "c2": 0.32, "correlation_length_m": 5.0, "slip_error": 0.5,
+            "std": {"stiffness_ratio": 0.25, "n": 0.05, "cohesion_pa": 300.0, "friction_angle_deg": 2.0, "shear_modulus_ratio": 0.25}}
     head = {key: soil[key] for key in ("summary", "source", "assumed", "correlation_length_m")}
     head["name"] = "as_the_file"
     laws = {**every_parameter(), **soil, **head, "std": {**soil["std"], "c1": 0.1, "c2": 0.1}, "pressure_law": {"name": "bekker"},
