@@ -119,8 +119,15 @@ std::optional<Error> fault_of(const ServeOptions& options) {
 Result<std::shared_ptr<api::UploadFolder>> open_uploads(const ServeOptions& options, HttpOptions& http) {
   const std::string folder = options.uploads.folder(options.jobs);
   if (folder.empty()) return nullptr;
+  const auto unusable = [&](const Error& why) {
+    return fail(
+        why.code,
+        fmt::format("the folder of --uploads, {} ({}), can't be used: {}; --uploads \"\" takes none", folder,
+                    options.uploads.given ? "as given" : "beside the jobs' file, as none is given",
+                    why.detail));
+  };
   auto uploads = api::UploadFolder::open(folder, {.max_total_bytes = options.uploads.max_bytes()});
-  if (!uploads) return fail(uploads.error());
+  if (!uploads) return unusable(uploads.error());
   LargeBodies& large = http.large_bodies;
   large.folder = (*uploads)->files();
   large.paths = {std::string(kUploadsPath)};
@@ -128,9 +135,7 @@ Result<std::shared_ptr<api::UploadFolder>> open_uploads(const ServeOptions& opti
   large.max_bytes = static_cast<std::int64_t>(options.upload_mb * kBytesPerMb);
   large.max_total_bytes = 2 * large.max_bytes;
   if (const auto file = BodyFile::make(large.folder, large.under_way); !file)
-    return fail(ErrorCode::kUnwritableFile,
-                fmt::format("the folder of --uploads, {}, can't be used: {}; --uploads \"\" takes none",
-                            folder, file.error().detail));
+    return unusable({ErrorCode::kUnwritableFile, file.error().detail, {}});
   return uploads;
 }
 
