@@ -196,8 +196,8 @@ std::string csv_of(const std::vector<WorldScore>& scores) {
   for (const WorldScore& s : scores) {
     text += fmt::format("{},{},{},{},{}", s.world, s.planner, s.route, s.truth, s.decision);
     for (const NumberColumn& column : kNumbers)
-      text += column.whole != nullptr ? fmt::format(",{}", s.*column.whole)
-                                      : fmt::format(",{}", s.*column.real);
+      text +=
+          column.whole != nullptr ? fmt::format(",{}", s.*column.whole) : fmt::format(",{}", s.*column.real);
     text += "\n";
   }
   return text;
