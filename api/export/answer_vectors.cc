@@ -283,10 +283,6 @@ void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coord
   }
 }
 
-}  // namespace
-
-namespace {
-
 dem::Extent extent_of(const JsonValue& site) {
   const JsonValue& extent = at(site, "extent");
   return {number(extent, "west_m"), number(extent, "south_m"), number(extent, "east_m"),

@@ -1,12 +1,11 @@
 #include "api/files/soil_file.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "api/files/assumed_soil.h"
 #include "api/files/model_fields.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
@@ -250,58 +249,11 @@ void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
     reader.fault("patches_spread", "patches_spread is for alternatives of which some are in patches");
 }
 
-JsonValue number_value(double number) {
-  JsonValue value;
-  value.kind = JsonValue::Kind::kNumber;
-  value.number = number;
-  return value;
-}
-
-// Gives the object a member that it does not have.
-bool give(JsonValue& object, const char* key, JsonValue value) {
-  if (object.find(key) != nullptr) return false;
-  object.keys.emplace_back(key);
-  object.elements.push_back(std::move(value));
-  return true;
-}
-
-// What a soil leaves out that few tests measure is that of the shipped sands, and its name goes to `assumed`:
-// a bevameter gives k_c, k_phi, n, cohesion and friction angle, and often no more. K of an unknown sand may
-// be half or twice as large, and a slip that is predicted with it is no surer than one of a soil that nobody
-// tested.
-void give_what_is_assumed(JsonValue& soil, std::vector<std::string>& assumed) {
-  constexpr double kSand = 0.25, kUnknown = 0.5;  // spreads of ratios
-  if (!soil.is(JsonValue::Kind::kObject) || soil.find("slip_curve") != nullptr) return;
-  const auto number = [&](const char* key, double value, const char* unit) {
-    const bool is_given = give(soil, key, number_value(value));
-    if (is_given) assumed.push_back(fmt::format("{}: {:g}{}, as shipped sands have", key, value, unit));
-    return is_given;
-  };
-  const bool is_sheared_unknown = number("shear_modulus_x_m", 0.0152, " m");
-  number("density_kg_m3", 1500.0, " kg/m^3");
-  number("c1", 0.18, "");
-  number("c2", 0.32, "");
-  number("correlation_length_m", 5.0, " m");
-  if (is_sheared_unknown) number("slip_error", 0.5, "");
-  const JsonValue* const cohesion = soil.find("cohesion_pa");
-  const double cohesion_pa =
-      cohesion != nullptr && cohesion->is(JsonValue::Kind::kNumber) ? cohesion->number : 0.0;
-  JsonValue std;
-  std.kind = JsonValue::Kind::kObject;
-  give(std, "stiffness_ratio", number_value(kSand));
-  give(std, "n", number_value(0.05));
-  give(std, "cohesion_pa", number_value(0.3 * std::max(cohesion_pa, 0.0)));
-  give(std, "friction_angle_deg", number_value(2.0));
-  give(std, "shear_modulus_ratio", number_value(is_sheared_unknown ? kUnknown : kSand));
-  if (give(soil, "std", std::move(std))) assumed.emplace_back("std: the usual scatter of such tests");
-}
-
 void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilDistribution& soil,
                std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
   JsonValue whole = *element.value;
-  std::vector<std::string> assumed;
-  give_what_is_assumed(whole, assumed);
+  const std::vector<std::string> assumed = give_what_is_assumed(whole);
   ObjectReader reader(whole, element.pointer, faults);
   reader.text("name", kRequired, {.most = 64, .is_name = true}, soil.name);
   reader.text("summary", kRequired, {.most = 500}, soil.summary);

@@ -370,6 +370,13 @@ class Importer {
 
 }  // namespace
 
+const ImportedColumn* column_with(const ImportedCampaign& campaign, std::string ImportedColumn::*part,
+                                  std::string_view value) {
+  const auto at = std::find_if(campaign.columns.begin(), campaign.columns.end(),
+                               [&](const ImportedColumn& column) { return column.*part == value; });
+  return at == campaign.columns.end() ? nullptr : &*at;
+}
+
 Result<ImportedCampaign> import_drives(const fs::path& mapping) {
   const auto bytes = bytes_of(mapping);
   if (!bytes)

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,11 @@ struct ImportedCampaign {
   // `files` has no campaign.json, none could be made.
   std::vector<Fault> faults;
 };
+
+// The first column of which a part is this: its key in the mapping (`key`), the campaign's column (`to`);
+// nullptr: none.
+const ImportedColumn* column_with(const ImportedCampaign& campaign, std::string ImportedColumn::*part,
+                                  std::string_view value);
 
 // Reads the files that the mapping names, from its folder, and makes a drive-campaign/1 of them, of as much
 // as is without fault; nothing is written. Faults are in the answer, so that those of the campaign's own

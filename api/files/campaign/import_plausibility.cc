@@ -35,13 +35,6 @@ const ReadingLimit* limit_of(const std::vector<ReadingLimit>& limits, std::strin
   return at == limits.end() ? nullptr : &*at;
 }
 
-// Where a column of the campaign is read from.
-const ImportedColumn* source_of(const ImportedCampaign& campaign, std::string_view to) {
-  const auto at = std::find_if(campaign.columns.begin(), campaign.columns.end(),
-                               [&](const ImportedColumn& column) { return column.to == to; });
-  return at == campaign.columns.end() ? nullptr : &*at;
-}
-
 class Judge {
  public:
   Judge(const ImportedCampaign& campaign, const DriveCampaign& read) : campaign_(campaign), read_(read) {}
@@ -74,7 +67,7 @@ class Judge {
     if (!read || !there) return;
     const bool flat = *there > kLevel_deg && *read < kFlat * *there;
     if (!flat && *read < *there + kBeyond_deg) return;
-    const ImportedColumn* const roll = source_of(campaign_, "roll_deg");
+    const ImportedColumn* const roll = column_with(campaign_, &ImportedColumn::to, "roll_deg");
     const bool parts = roll != nullptr && roll->key == kAttitudeKey;
     const std::string remedy =
         parts ? fmt::format("look at the keys from, order and inverse of {}",
@@ -110,7 +103,7 @@ class Judge {
       }
     if (shares.size() < kLeastRows) return;
     const double half = median(std::move(shares));
-    const ImportedColumn* const column = source_of(campaign_, key);
+    const ImportedColumn* const column = column_with(campaign_, &ImportedColumn::to, key);
     if (half > kTurned || column == nullptr) return;
     warnings_.push_back(fmt::format(
         "in half of the rows {}, as read from {}, is {:.3g} times that of the ground under the rover or "
@@ -153,7 +146,7 @@ class Judge {
     }
     const auto half = median_of(std::move(off));
     if (!half || *half < kOff_deg) return;
-    const ImportedColumn* const yaw = source_of(campaign_, "yaw_deg");
+    const ImportedColumn* const yaw = column_with(campaign_, &ImportedColumn::to, "yaw_deg");
     if (yaw == nullptr) return;
     warnings_.push_back(fmt::format(
         "in half of the drives the heading is more than {:.3g} deg off the way from start to end, as read "

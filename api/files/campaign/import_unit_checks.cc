@@ -40,12 +40,6 @@ std::set<std::string> keys_of(const ImportedCampaign& campaign, std::string_view
   return keys;
 }
 
-const ImportedColumn* column_of(const ImportedCampaign& campaign, std::string_view key) {
-  const auto at = std::find_if(campaign.columns.begin(), campaign.columns.end(),
-                               [&](const ImportedColumn& column) { return column.key == key; });
-  return at == campaign.columns.end() ? nullptr : &*at;
-}
-
 class UnitJudge {
  public:
   UnitJudge(const ImportedCampaign& campaign, const DriveCampaign& read) : campaign_(campaign), read_(read) {}
@@ -215,7 +209,7 @@ std::vector<std::string> unit_warnings(const ImportedCampaign& campaign, const D
 
 std::string better_unit(const ImportedCampaign& campaign, std::string_view key, double times) {
   constexpr double kNear = 1.6;
-  const ImportedColumn* const column = column_of(campaign, key);
+  const ImportedColumn* const column = column_with(campaign, &ImportedColumn::key, key);
   if (column == nullptr || !(times > 0.0)) return "";
   std::string words;
   double nearest = std::log(kNear);

@@ -120,10 +120,7 @@ std::string ImportedWheels::names_of(const std::vector<std::size_t>& wheels) con
 }
 
 const ImportedColumn* ImportedWheels::column_of(std::size_t wheel, std::string_view ending) const {
-  const std::string to = rover_.wheels[wheel].name + std::string(ending);
-  for (const ImportedColumn& column : campaign_.columns)
-    if (column.to == to) return &column;
-  return nullptr;
+  return column_with(campaign_, &ImportedColumn::to, rover_.wheels[wheel].name + std::string(ending));
 }
 
 std::string ImportedWheels::remedy(const std::vector<std::size_t>& wheels, std::string_view ending) const {

@@ -43,8 +43,7 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv) {
   const CLI::App* at = &app;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    const std::vector<CLI::App*> commands =
-        const_cast<CLI::App*>(at)->get_subcommands(std::function<bool(CLI::App*)>{});
+    const auto commands = at->get_subcommands(std::function<bool(const CLI::App*)>{});
     const auto next = std::find_if(commands.begin(), commands.end(),
                                    [&](const CLI::App* command) { return command->get_name() == word; });
     if (next != commands.end()) {
