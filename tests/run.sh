@@ -29,11 +29,11 @@ tested=yes
 stage "test" ctest --preset check --progress -j "$(nproc)" "$@" ||
   fail "a test failed; run it alone with: ctest --preset check -R NAME"
 case "${SANITIZE:-}" in
-  yes) sanitized=sanitized_tests ;;
-  full) sanitized=more_sanitized_tests ;;
+  yes) sanitized=sanitized_tests readers_alone=ON ;;
+  full) sanitized=more_sanitized_tests readers_alone=OFF ;;
   *) exit 0 ;;
 esac
-stage "configure with sanitizers" cmake --preset asan || fail "cmake could not configure the preset asan"
+stage "configure with sanitizers" cmake --preset asan -DSLIPWAY_SANITIZE_READERS_ALONE=$readers_alone || fail "cmake could not configure the preset asan"
 stage "build with sanitizers" cmake --build --preset asan --target "$sanitized" || fail "the build with sanitizers broke"
 stage "test with sanitizers" ctest --preset asan --progress -j "$(nproc)" ||
   fail "a sanitizer found something; run the test alone with: ctest --preset asan -R NAME"

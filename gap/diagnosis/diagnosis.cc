@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "core/part_of_progress.h"
+#include "gap/diagnosis/decide/record_of.h"
 #include "gap/diagnosis/describe/ends_of_ranges.h"
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
@@ -208,6 +209,14 @@ class Diagnoser {
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
+    d_.search = record_of(search_, shares, d_.library, std::cref(held_out));
+    d_.search.with_reference = campaign_.reference != nullptr;
+    d_.search.drives = d_.drives;
+    d_.search.windows = d_.windows;
+    const Eigen::VectorXd scatter = prepared_.noise->deviations_above_belief();
+    d_.search.scatter_deviations.assign(scatter.begin(), scatter.end());
+    d_.search.parameters_gain = gain_of_parameters(prepared_, campaign_, options_);
+    d_.search.hidden_share = hidden_share(search_.screened, options_.verdict);
     const CauseShares cause_shares{
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
@@ -226,7 +235,7 @@ class Diagnoser {
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
     named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
-    judge(campaign_, prepared_, search_, naming_, options_, d_);
+    judge(campaign_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
   }
 

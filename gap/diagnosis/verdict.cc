@@ -18,28 +18,6 @@
 namespace slipway::gap {
 namespace {
 
-// How much more probable the drives are when soils and motors may differ from the nominal ones, closures
-// being free in either case.
-double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                          const DiagnosisOptions& options) {
-  const FittedExplanation& null = *prepared.null;
-  const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
-  std::vector<double> start;
-  for (const Parameter& closure : pinned.parameters())
-    for (std::size_t p = 0; p < null.x.size(); ++p)
-      if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
-  const FittedExplanation nominal =
-      fit_explanation(pinned, *prepared.model, *prepared.noise, start, options.fit, options.search.threads);
-  const auto evidence = [&](const FittedExplanation& fit) {
-    const Eigen::MatrixXd no_form(fit.white_jacobian.rows(), 0);
-    const DiscrepancyGain gain =
-        discrepancy_gain(fit, whitened(fit, *prepared.noise, prepared.discrepancy), no_form,
-                         options.discrepancy, [&] { return prepared.model->cancelled(); });
-    return fit.log_evidence + gain.imprecision;
-  };
-  return evidence(null) - evidence(nominal);
-}
-
 ComparedSet compared(const Candidate& c) {
   ComparedSet set;
   set.effects = library_effects_of(c);
@@ -92,15 +70,14 @@ std::vector<LeastDetectable> least_detectable_of(std::span<const ScreenedVariant
   return least;
 }
 
-void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign& prepared,
-                           const ExplanationSearch& search, const Candidate& chosen, double probability,
+void judge_without_effects(const ExplanationSearch& search, const Candidate& chosen, double probability,
                            const DiagnosisOptions& options, Diagnosis& d) {
   d.least_detectable = least_detectable_of(search.screened, options.verdict);
   const Candidate* const rival = rival_of(search, chosen);
   const auto or_rival = [&](std::string_view words) {
     return rival != nullptr ? fmt::format("{}; {}", words, next_best(*rival)) : std::string(words);
   };
-  const double gain = gain_of_parameters(prepared, campaign, options);
+  const double gain = d.search.parameters_gain;
   if (gain > options.verdict.min_parameters_gain) {
     d.verdict = Verdict::kParameters;
     d.reason = fmt::format(
@@ -212,6 +189,26 @@ void judge_unknown(const ExplanationSearch& search, std::size_t best, double unk
 
 }  // namespace
 
+double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                          const DiagnosisOptions& options) {
+  const FittedExplanation& null = *prepared.null;
+  const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
+  std::vector<double> start;
+  for (const Parameter& closure : pinned.parameters())
+    for (std::size_t p = 0; p < null.x.size(); ++p)
+      if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
+  const FittedExplanation nominal =
+      fit_explanation(pinned, *prepared.model, *prepared.noise, start, options.fit, options.search.threads);
+  const auto evidence = [&](const FittedExplanation& fit) {
+    const Eigen::MatrixXd no_form(fit.white_jacobian.rows(), 0);
+    const DiscrepancyGain gain =
+        discrepancy_gain(fit, whitened(fit, *prepared.noise, prepared.discrepancy), no_form,
+                         options.discrepancy, [&] { return prepared.model->cancelled(); });
+    return fit.log_evidence + gain.imprecision;
+  };
+  return evidence(null) - evidence(nominal);
+}
+
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
   const auto i = static_cast<Eigen::Index>(parameter);
   const Parameter& p = fit.hypothesis.parameters()[parameter];
@@ -269,7 +266,7 @@ std::string closing_words(const Diagnosis& d, std::span<const std::string> effec
   return fmt::format("{}", fmt::join(each, ", "));
 }
 
-void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
+void judge(const DriveCampaign& campaign, const ExplanationSearch& search,
            const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
   const Candidate& chosen = search.candidates[naming.candidate];
   std::map<SetKey, double> sets;
@@ -292,7 +289,7 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   } else if (chosen.unknown() && !naming.partial) {
     judge_unknown(search, naming.chosen, unknown, d);
   } else if (naming.effects.empty()) {
-    judge_without_effects(campaign, prepared, search, chosen, probability, options, d);
+    judge_without_effects(search, chosen, probability, options, d);
   } else {
     judge_effects(search, naming, probability, options, d);
     d.effects = found_effects(search.fits[chosen.fit], d.marginals);

@@ -17,13 +17,18 @@ namespace slipway::gap {
 // 90 % interval of a fit's parameter, cut at the ends of what it may be.
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter);
 
+// How much more probable the drives are when soils and motors may differ from the nominal ones, closures
+// being free in either case: a difference of log evidences.
+double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                          const DiagnosisOptions& options);
+
 // The share of the screened variants that drives would not surely have shown at VerdictOptions::small_effect
 // of their usual size; 1 where none was screened.
 double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options);
 
 // What the chosen candidate and the named effects mean: the verdict, its reason and what would overturn it,
 // the effects found, or how small ones could have hidden. d has its `marginals`.
-void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
+void judge(const DriveCampaign& campaign, const ExplanationSearch& search,
            const Naming& naming, const DiagnosisOptions& options, Diagnosis& d);
 
 // Effects are not surely found, and not named, where more than VerdictOptions::max_nothing_share of the

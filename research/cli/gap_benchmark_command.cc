@@ -37,6 +37,7 @@
 #include "research/documents/benchmark_document.h"
 #include "research/documents/benchmark_report.h"
 #include "research/documents/drives_needed_document.h"
+#include "research/documents/search_record_document.h"
 #include "research/sealed_set/benchmark_answers.h"
 #include "research/sealed_set/hidden_traces_csv.h"
 #include "research/sealed_set/sealed_campaign_folder.h"
@@ -184,15 +185,18 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   });
   if (!diagnosis) return fail(diagnosis.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  if (!options.keep.empty()) {
-    std::string file = name;
-    if (given.oracle) file += "-oracle";
-    for (const std::string& effect : given.withheld)
-      if (!given.oracle) file += "-without-" + effect;
-    const auto kept = api::write_whole_file(fs::path(options.keep) / (file + ".json"),
-                                            api::json::diagnosis_document(*campaign, *diagnosis));
-    if (!kept) return fail(kept.error());
-  }
+  std::string file = name;
+  if (given.oracle) file += "-oracle";
+  for (const std::string& effect : given.withheld)
+    if (!given.oracle) file += "-without-" + effect;
+  const auto keep = [&](const std::string& folder, const std::string& document) -> Result<void> {
+    if (folder.empty()) return {};
+    return api::write_whole_file(fs::path(folder) / (file + ".json"), document);
+  };
+  if (auto kept = keep(options.keep, api::json::diagnosis_document(*campaign, *diagnosis)); !kept)
+    return fail(kept.error());
+  if (auto kept = keep(options.keep_search, api::json::search_record_document(*diagnosis)); !kept)
+    return fail(kept.error());
   return Timed{std::move(*diagnosis), took.count()};
 }
 
@@ -378,8 +382,9 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   for (const std::string& name : *names)
     if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
       return refuse_unreadable(campaign.error());
-  if (!options.keep.empty())
-    if (const auto made = api::make_folder(options.keep); !made) return refuse(made.error());
+  for (const std::string& folder : {options.keep, options.keep_search})
+    if (const auto made = folder.empty() ? Result<void>{} : api::make_folder(folder); !made)
+      return refuse(made.error());
   if (options.drives_needed) return tell_drives_needed(options, *catalogue, *names);
   // All diagnoses before the key is opened.
   const auto open = diagnose_all(options, *catalogue, *names);
@@ -407,6 +412,9 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_option("--keep", options->keep, "folder for each campaign's diagnosis, NAME.json");
+  command->add_option("--keep-search", options->keep_search,
+                      "folder for what each decision was made from, NAME.json: decisions are judged again from it "
+                      "without a diagnosis");
   command->add_option("--csv", options->csv, "file for the scores, one line a campaign");
   command->add_option("--marginals-csv", options->marginals_csv,
                       "file for the marginal probabilities, one line a campaign and effect");

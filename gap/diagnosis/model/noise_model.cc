@@ -150,13 +150,17 @@ double NoiseModel::log_prior(const NoiseScales& scales) const {
          (options_.prior_std * options_.prior_std);
 }
 
+Eigen::VectorXd NoiseModel::deviations_above_belief() const {
+  Eigen::VectorXd off = from_belief(scales_, options_.initial) / options_.prior_std;
+  off[kWithinScale] = std::min(0.0, off.minCoeff());
+  return off;
+}
+
 ScaleOffBelief NoiseModel::furthest_above_belief() const {
-  Eigen::VectorXd off = from_belief(scales_, options_.initial);
-  off[kWithinScale] = off.minCoeff();  // of the three before it, no scatter of its own
   Eigen::Index furthest = 0;
-  off.maxCoeff(&furthest);
-  return {kScaleNames[static_cast<std::size_t>(furthest)], std::exp(off[furthest]),
-          off[furthest] / options_.prior_std};
+  const double deviations = deviations_above_belief().maxCoeff(&furthest);
+  return {kScaleNames[static_cast<std::size_t>(furthest)], std::exp(deviations * options_.prior_std),
+          deviations};
 }
 
 ScatterLikelihood NoiseModel::likelihood_of(const Eigen::VectorXd& residuals,

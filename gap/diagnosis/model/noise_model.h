@@ -58,6 +58,9 @@ class NoiseModel {
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
   // What the scales were believed to be before the drives, and how probable that makes those of now.
   const NoiseScales& believed() const { return options_.initial; }
+  // How far each scale's logarithm lies above what was believed of it, in its prior's deviations. The scatter
+  // within drives is relative to that between them and has none of its own.
+  Eigen::VectorXd deviations_above_belief() const;
   // The scale that lies furthest above what was believed.
   ScaleOffBelief furthest_above_belief() const;
   // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.

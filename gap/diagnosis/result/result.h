@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "gap/diagnosis/decide/search_record.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "gap/diagnosis/model/drive_window.h"
 #include "gap/diagnosis/model/noise_model.h"
@@ -251,6 +252,7 @@ struct Diagnosis {
   std::string reason;         // one sentence
   std::string overturned_by;  // what would
   std::vector<FoundEffect> effects;
+  SearchRecord search;                    // what the verdict was decided from
   std::vector<EffectMarginal> marginals;  // of all of the library, the most probable first
   std::vector<ComparedSet> candidates;
   std::vector<ConfusablePair> confusable;
