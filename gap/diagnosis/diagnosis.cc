@@ -10,8 +10,11 @@
 
 #include "core/angle.h"
 #include "core/part_of_progress.h"
+#include "gap/diagnosis/decide/decision.h"
 #include "gap/diagnosis/decide/record_of.h"
+#include "gap/diagnosis/decide/words.h"
 #include "gap/diagnosis/describe/ends_of_ranges.h"
+#include "gap/diagnosis/describe/found_causes.h"
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/measurement_proposals.h"
@@ -19,8 +22,6 @@
 #include "gap/diagnosis/describe/offered_model.h"
 #include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
-#include "gap/diagnosis/doubts.h"
-#include "gap/diagnosis/held_out/correction_choice.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
@@ -28,33 +29,23 @@
 #include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
 #include "gap/diagnosis/model/reference_belief.h"
-#include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/search/effect_trace.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 #include "gap/diagnosis/search/selection.h"
 #include "gap/diagnosis/search/soft_patch_search.h"
-#include "gap/diagnosis/verdict.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
 
-// The options where a reference told what is healthy: less of the evidence is believed, and an effect must
-// close more of the gap to be named.
+// The options where a reference told what is healthy: less of the evidence is believed.
 DiagnosisOptions with_reference(DiagnosisOptions options) {
-  for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
-  VerdictOptions& verdict = options.verdict;
-  for (double* const closed : {&verdict.min_closed_share, &verdict.min_certain_share})
-    *closed = std::max(*closed, options.reference.min_closed_share);
-  for (double* const left : {&verdict.max_left_of_nothing, &verdict.max_left_beside_effects})
-    *left = std::max(*left, options.reference.max_left);
-  verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
+  options.evidence.share *= options.reference.evidence_share;
   return options;
 }
 
 // Fractions of a diagnosis that are done by then.
-constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79, kHeldOut = 0.95,
-                 kHeldOutAgain = 0.96;
+constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79;
 
 class Diagnoser {
  public:
@@ -76,7 +67,7 @@ class Diagnoser {
     if (auto searched = search(options_, kPrepared, kSearched); !searched) return fail(searched.error());
     if (auto searched = search_again(); !searched) return fail(searched.error());
     const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
-    name_and_judge(drives);
+    decide_from_search(drives);
     compare_look_alikes();
     if (auto closed = close_gap(drives); !closed) return fail(closed.error());
     describe_parameters();
@@ -153,8 +144,8 @@ class Diagnoser {
   // Whether nothing can be said; the verdict says so.
   bool too_few() {
     const bool since = campaign_.reference != nullptr;
-    const int min_drives = since ? options_.reference.min_drives : options_.verdict.min_drives;
-    const int min_windows = since ? options_.reference.min_windows : options_.verdict.min_windows;
+    const int min_drives = since ? options_.reference.min_drives : options_.decision.min_drives;
+    const int min_windows = since ? options_.reference.min_windows : options_.decision.min_windows;
     const bool enough = d_.drives >= static_cast<std::size_t>(min_drives) &&
                         d_.windows >= static_cast<std::size_t>(min_windows);
     if (enough && can_be_held_out()) return false;
@@ -183,8 +174,7 @@ class Diagnoser {
                       options, progress, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
-    best_ = best_form(search_, chosen_among(search_.candidates, options_.selection),
-                      options_.selection.alike_form_share);
+    best_ = 0;
     return {};
   }
 
@@ -204,11 +194,10 @@ class Diagnoser {
                   most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
   }
 
-  void name_and_judge(const DriveResampling& drives) {
+  void decide_from_search(const DriveResampling& drives) {
     progress_.report("weighing single effects", kSearchedAgain);
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
-    d_.marginals = effect_marginals(d_.library, search_, shares);
     d_.search = record_of(search_, shares, d_.library, std::cref(held_out));
     d_.search.with_reference = campaign_.reference != nullptr;
     d_.search.drives = d_.drives;
@@ -216,33 +205,45 @@ class Diagnoser {
     const Eigen::VectorXd scatter = prepared_.noise->deviations_above_belief();
     d_.search.scatter_deviations.assign(scatter.begin(), scatter.end());
     d_.search.parameters_gain = gain_of_parameters(prepared_, campaign_, options_);
-    d_.search.hidden_share = hidden_share(search_.screened, options_.verdict);
-    const CauseShares cause_shares{
-        .of_gap = [&](const std::string& cause) { return shares.of(cause); },
-        .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
-    // With a reference no closure stands in for an effect: the reference taught where it lies.
-    const Beliefs beliefs{
-        .closure_shift =
-            [&](const Candidate& c) {
-              return campaign_.reference ? 0.0 : std::abs(furthest_closure(search_.fits[c.fit]).deviations);
-            },
-        .are_bent_beyond =
-            [&](const Candidate& c) {
-              return scatter_beyond_belief(furthest_scatter(), options_.verdict) ||
-                     beyond_belief(search_.fits[c.fit], library_effects_of(c), options_.verdict);
-            }};
-    most_believed_ = best_;
-    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, beliefs, options_.verdict);
-    named_share_ = shares.of_all(naming_.effects);
-    best_ = naming_.correction;
-    judge(campaign_, search_, naming_, options_, d_);
-    if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
+    d_.search.hidden_share = hidden_share(search_.screened, options_.description);
+
+    const Decision decision = decide(d_.search, options_.evidence.share, options_.decision);
+    best_ = decision.answer;
+    beside_ = decision.beside;
+    d_.verdict = decision.verdict;
+    d_.partial = decision.partial;
+    d_.model_adequate = decision.adequate;
+    d_.conflict_probability = decision.adequacy.conflict_p;
+    d_.marginals = effect_marginals(d_.library, search_, shares);
+    for (EffectMarginal& m : d_.marginals) m.calibrated = decision.calibrated.at(m.name);
+    d_.candidates = compared_sets();
+    if (d_.partial || d_.verdict == Verdict::kUnknown)
+      d_.outside = outside_finding(search_.fits[beside().fit], campaign_);
+    if (d_.outside) {
+      d_.outside->probability = decision.marginals.of_cause.at(d_.outside->cause);
+      d_.outside->closed_share = shares.of(d_.outside->cause);
+    }
+    d_.effects = found_effects(best_fit(), decision.names, d_.marginals);
+    if (finds_nothing_missing(d_.verdict))
+      d_.least_detectable = least_detectable_of(search_.screened, options_.description);
+    auto words = words_of(decision, d_.search, d_.marginals, d_.outside);
+    d_.reason = std::move(words.reason);
+    d_.overturned_by = std::move(words.overturned_by);
   }
 
-  // None with a reference, which told of it.
-  std::optional<ScaleOffBelief> furthest_scatter() const {
-    if (campaign_.reference) return std::nullopt;
-    return prepared_.noise->furthest_above_belief();
+  std::vector<ComparedSet> compared_sets() const {
+    std::vector<ComparedSet> sets;
+    for (const Candidate& c : search_.candidates) {
+      ComparedSet& set = sets.emplace_back();
+      set.effects = library_effects_of(c);
+      set.with_unknown = c.unknown();
+      if (c.outside) set.outside = outside_causes_of(c).front();
+      set.probability = c.probability;
+      set.log_evidence = evidence_over_nothing(c, search_.candidates);
+      set.log_prior = c.log_prior;
+      set.complexity = static_cast<int>(search_.fits[c.fit].x.size() - search_.fits[0].x.size());
+    }
+    return sets;
   }
 
   bool is_withheld(std::string_view effect) const {
@@ -251,12 +252,13 @@ class Diagnoser {
   }
 
   const Candidate& best() const { return search_.candidates[best_]; }
+  const Candidate& beside() const { return search_.candidates[beside_]; }
   const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
   // What the verdict says: a fit whose effects are all named, or the re-tuned one.
   const FittedExplanation& reported_fit() const { return explains() ? best_fit() : search_.fits[0]; }
   // Beside which something is left: with a cause from outside where one was found.
   const FittedExplanation& fit_beside_rest() const {
-    return d_.outside ? search_.fits[search_.candidates[naming_.chosen].fit] : reported_fit();
+    return d_.outside ? search_.fits[beside().fit] : reported_fit();
   }
   bool explains() const { return names_effects(d_.verdict); }
 
@@ -268,20 +270,21 @@ class Diagnoser {
       const auto i = static_cast<Eigen::Index>(p);
       const double error = parameter.std * std::sqrt(fit.covariance(i, i));
       d_.retuned.push_back({parameter.name, value, parameter.std,
-                            error < options_.verdict.determined_share * parameter.std, parameter.neutral});
+                            error < options_.description.determined_share * parameter.std,
+                            parameter.neutral});
     }
   }
 
   void compare_look_alikes() {
-    d_.confusable = confusable_pairs(search_, options_.verdict);
-    d_.look_alikes = look_alikes(search_, options_.verdict);
+    d_.confusable = confusable_pairs(search_, options_.description);
+    d_.look_alikes = look_alikes(search_, options_.description);
     if (campaign_.reference) return;  // which told of the parameters already
     d_.measurements = measurement_proposals(
         search_,
         [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
           return search_.fits[0].row_weights.asDiagonal() * prepared_.noise->whiten(change);
         },
-        options_.verdict);
+        options_.description);
   }
 
   void localise() {
@@ -311,82 +314,44 @@ class Diagnoser {
     }
   }
 
-  // Which sets resampled drives choose, and what that says of the names.
-  SelectionBootstrap resample(const DriveResampling& drives) {
-    SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
-    for (std::size_t c = 0; c < selection.share.size(); ++c)
-      d_.candidates[c].chosen_share = selection.share[c];
-    judge_resamples(search_, options_.verdict, d_);
-    return selection;
-  }
-
-  CorrectionChoice choose_corrections(const SelectionBootstrap& selection) const {
-    if (!explains()) return {{uncorrected()}, {}};
-    if (d_.partial) return {{refitted(prepared_, best_fit(), options_)}, {}};
-    return gap::choose_corrections(prepared_, search_, selection, best_, most_believed_, options_);
-  }
-
-  // What drives held out of the fit are told with the corrections and without.
-  Result<GapClosure> hold_out(const CorrectionChoice& choice, const DriveResampling& drives,
-                              Progress& progress) {
-    auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress);
+  // What drives held out of the fit are told with the correction and without.
+  Result<void> close_gap(const DriveResampling& drives) {
+    const std::vector<double> chosen = resample_selection(search_, prepared_, campaign_, options_, drives);
+    for (std::size_t c = 0; c < chosen.size(); ++c) d_.candidates[c].chosen_share = chosen[c];
+    const Correction correction = explains() ? refitted(prepared_, best_fit(), options_) : uncorrected();
+    auto closure = close_gap_on_held_out(prepared_, campaign_, correction, drives, options_, progress_);
     if (!closure) return fail(closure.error());
     d_.gap = closure->channels;
     d_.planners_view = closure->planners_view;
     d_.held_out = closure->points;
     d_.window_gaps = closure->windows;
     d_.candidates[best_].held_out_score = closure->log_density_gain;
-    return closure;
-  }
-
-  // Names some of the effects alone, as they were fitted without the others; whether they were.
-  bool name_only(std::span<const std::string> names) {
-    const auto naming = name_partially(search_, naming_.chosen, names);
-    if (!naming) return false;
-    naming_ = *naming;
-    best_ = naming_.correction;
-    d_.effects = found_effects(best_fit(), d_.marginals);
-    return true;
-  }
-
-  Result<void> close_gap(const DriveResampling& drives) {
-    CorrectionChoice choice = choose_corrections(resample(drives));
-    auto closure = hold_out(choice, drives, progress_);
-    if (!closure) return fail(closure.error());
-    const double log_evidence = evidence_over_nothing(best(), search_.candidates);
-    withdraw_what_tells_no_better(closure->log_density_gain, log_evidence, options_.verdict, d_);
-    std::optional<Doubt> doubt =
-        doubt_of({reported_fit(), named_share_, log_evidence, furthest_scatter()}, options_.verdict, d_);
-    if (doubt && !doubt->standing.empty() && !doubt->fallen.empty()) {
-      if (name_only(doubt->standing)) {
-        choice = {{refitted(prepared_, best_fit(), options_)}, {}};
-        PartOfProgress again(progress_, kHeldOut, kHeldOutAgain);
-        closure = hold_out(choice, drives, again);
-        if (!closure) return fail(closure.error());
-      } else {
-        for (std::string& name : std::exchange(doubt->standing, {})) doubt->fallen.push_back(std::move(name));
-      }
-    }
-    if (doubt) apply_doubt(*doubt, options_.verdict, d_);
     if (explains()) {
-      auto extrapolated =
-          extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
+      auto extrapolated = extrapolate(prepared_, campaign_, correction, drives, options_, progress_);
       if (!extrapolated) return fail(extrapolated.error());
       d_.extrapolations = std::move(*extrapolated);
-      doubt_what_does_not_extrapolate(options_.verdict, d_);
-    }
-    if (explains()) {
       d_.closed_fraction = closure->closed_fraction;
       for (std::string& note : notes_of_ends_of_ranges(reported_fit())) d_.notes.push_back(std::move(note));
     }
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    const std::vector<std::string> implausible = implausible_readings();
-    doubt_readings(implausible, options_.verdict, d_);
-    if (implausible.empty()) offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
+    if (const std::vector<std::string> implausible = implausible_readings(); implausible.empty())
+      offer_model(reported_fit(), closure->log_density_gain, options_.held_out, d_);
+    else
+      doubt_readings(implausible.front());
     add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds, options_.fit),
                          fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};
+  }
+
+  // That nothing is missing can't be said of implausible readings: currents in mA agree with any model once
+  // they are taken to scatter by as much.
+  void doubt_readings(const std::string& implausible) {
+    if (!finds_nothing_missing(d_.verdict)) return;
+    d_.least_detectable.clear();
+    d_.verdict = Verdict::kUnknown;
+    d_.reason = implausible;
+    d_.overturned_by = "readings in the units that the campaign states";
   }
 
   void propose_drives() {
@@ -416,10 +381,8 @@ class Diagnoser {
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;
-  std::size_t best_ = 0;           // of its candidates: what is reported
-  std::size_t most_believed_ = 0;  // the one that names were taken from
-  Naming naming_;
-  double named_share_ = 0.0;  // of the held-out gap
+  std::size_t best_ = 0;    // of its candidates: what is reported
+  std::size_t beside_ = 0;  // the same with something unknown
   Diagnosis d_;
 };
 

@@ -183,7 +183,7 @@ Result<Diagnosis> diagnose_by_gaussian_process(const DriveCampaign& campaign, co
   const auto prepared = prepared_for(campaign, options, d, progress);
   if (!prepared) return fail(prepared.error());
   auto closure = close_gap_on_held_out(
-      *prepared, campaign, {{gaussian_process(*prepared, options.discrepancy, options.search.threads)}, {}},
+      *prepared, campaign, gaussian_process(*prepared, options.discrepancy, options.search.threads),
       resample_drives(campaign, options.resamples, options.seed), options, progress);
   if (!closure) return fail(closure.error());
   d.verdict = Verdict::kUnknown;

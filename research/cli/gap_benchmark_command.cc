@@ -60,7 +60,6 @@ struct Variant {
   bool single = false;          // the effect with the best trace alone, no second, no pair
   bool whole_evidence = false;  // not tempered
   bool outside = true;          // causes from outside compete
-  bool by_marginals = true;     // effects are named by their marginal probabilities
   Result<gap::Diagnosis> (*method)(const gap::DriveCampaign&, const gap::DiagnosisOptions&,
                                    Progress&) = &gap::diagnose;
 };
@@ -78,8 +77,6 @@ constexpr std::array kVariants{
             .something_else = false,
             .whole_evidence = true},
     Variant{.name = "no-wrench", .outside = false},
-    Variant{.name = "old-naming", .by_marginals = false},
-    Variant{.name = "no-wrench-old-naming", .outside = false, .by_marginals = false},
     Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
     Variant{.name = "gaussian-process", .method = &gap::diagnose_by_gaussian_process},
@@ -176,9 +173,8 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
     how.search.max_refitted = 1;
     how.search.max_paired = 0;
   }
-  how.evidence.whole = variant.whole_evidence;
+  if (variant.whole_evidence) how.evidence.share = 1.0;
   how.search.outside = variant.outside;
-  how.verdict.name_by_marginals = variant.by_marginals;
   Interruptible patience;
   auto diagnosis = told_by_reference(options, catalogue, name, how, patience, *campaign).and_then([&] {
     return variant.method(*campaign, how, patience);
@@ -412,9 +408,10 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_option("--keep", options->keep, "folder for each campaign's diagnosis, NAME.json");
-  command->add_option("--keep-search", options->keep_search,
-                      "folder for what each decision was made from, NAME.json: decisions are judged again from it "
-                      "without a diagnosis");
+  command->add_option(
+      "--keep-search", options->keep_search,
+      "folder for what each decision was made from, NAME.json: decisions are judged again from it "
+      "without a diagnosis");
   command->add_option("--csv", options->csv, "file for the scores, one line a campaign");
   command->add_option("--marginals-csv", options->marginals_csv,
                       "file for the marginal probabilities, one line a campaign and effect");
@@ -422,7 +419,7 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       command
           ->add_option("--variant", options->variant,
                        "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
-                       "no-wrench, old-naming, no-wrench-old-naming, "
+                       "no-wrench, "
                        "nearest-signature, evidence-without-retuning, sample-level-folds, sparse-regression, "
                        "gaussian-process")
           ->capture_default_str();

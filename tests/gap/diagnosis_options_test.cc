@@ -40,14 +40,14 @@ TEST(DiagnosisOptions, AreListedWithTheirOwnValues) {
   DiagnosisOptions changed;
   changed.fit.huber = 3.25;
   changed.search.something_else = false;
-  changed.evidence.shares[1].weight = 0.125;
+  changed.evidence.share = 0.125;
   changed.location.place_radii_m = {7.0, 9.0};
   changed.resamples = 17;
   changed.noise.initial.friction = 0.5;
   const std::vector<ListedOption> options = listed_options(changed);
   EXPECT_EQ(value_of(options, "fit", "huber"), std::vector{3.25});
   EXPECT_EQ(value_of(options, "search", "something_else"), std::vector{0.0});
-  EXPECT_EQ(value_of(options, "evidence", "weights"), (std::vector{0.85, 0.125}));
+  EXPECT_EQ(value_of(options, "evidence", "share"), (std::vector{0.125}));
   EXPECT_EQ(value_of(options, "location", "place_radii_m"), (std::vector{7.0, 9.0}));
   EXPECT_EQ(value_of(options, "run", "resamples"), std::vector{17.0});
   EXPECT_EQ(value_of(options, "noise", "friction"), std::vector{0.5});

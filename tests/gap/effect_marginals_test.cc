@@ -128,17 +128,5 @@ TEST(ClosedShares, AreNoneWhereRetuningLeftNoGap) {
   EXPECT_EQ(ClosedShares(&rms_of, search).beside_others("a"), 0.0);
 }
 
-TEST(MarginalProbability, IsTheSumOverAllSetsWithTheEffect) {
-  std::vector<ComparedSet> sets(3);
-  sets[0].effects = {"a", "b"};
-  sets[0].probability = 0.5;
-  sets[1].effects = {"a"};
-  sets[1].with_unknown = true;
-  sets[1].probability = 0.3;
-  sets[2].probability = 0.2;
-  EXPECT_NEAR(marginal_probability(sets, "a"), 0.8, 1e-12);
-  EXPECT_NEAR(marginal_probability(sets, "b"), 0.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace slipway::gap

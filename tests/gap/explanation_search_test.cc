@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "gap/diagnosis/describe/found_causes.h"
 #include "gap/diagnosis/search/selection.h"
-#include "gap/diagnosis/verdict.h"
 #include "sim/effects/effect_catalogue.h"
 #include "tests/sim/reference_models.h"
 
@@ -43,23 +43,10 @@ TEST(Priors, AddUpToOneOverAllSetsThatStandAlone) {
                     pairs * std::exp(two.alone),
                 1.0, 1e-12)
         << effects;
-    EXPECT_NEAR(two.with_something_else - two.alone, options.pair_beside_something_else_log, 1e-12);
+    EXPECT_NEAR(two.with_something_else - two.alone, std::log(options.something_else), 1e-12);
   }
   EXPECT_NEAR(std::exp(log_prior_of_two(options, 1.0).alone), options.two_effects, 1e-12)
       << "no pair: finite";
-}
-
-TEST(Weigh, IsTheMixtureOfSharesEachNormalisedByItself) {
-  std::vector<Candidate> c(2);
-  c[0].log_evidence = 10.0;
-  c[0].log_prior = std::log(0.2);
-  c[1].log_prior = std::log(0.8);
-  EvidenceOptions options;
-  options.shares = {EvidenceShare{0.5, 0.75}, EvidenceShare{0.0, 0.25}};
-  weigh(c, options);
-  const double first = 0.2 * std::exp(5.0) / (0.2 * std::exp(5.0) + 0.8);
-  EXPECT_NEAR(c[0].probability, 0.75 * first + 0.25 * 0.2, 1e-12);
-  EXPECT_NEAR(c[1].probability, 0.75 * (1.0 - first) + 0.25 * 0.8, 1e-12);
 }
 
 // A search that is cancelled before anything was fitted has nothing to weigh.
@@ -74,7 +61,7 @@ TEST(Weigh, SumsOverTheWaysInWhichAnEffectCouldBeAtWork) {
   c[0].other_variants = {{0.0, -4.0}, {}, {-2.0}};  // of three effects
   c[1].log_prior = std::log(0.7);
   EvidenceOptions options;
-  options.shares = {EvidenceShare{0.5, 1.0}};
+  options.share = 0.5;
   weigh(c, options);
   const double effect = 0.1 * (std::exp(5.0) + std::exp(5.0) + std::exp(3.0)) * (1.0 + std::exp(-1.0));
   EXPECT_NEAR(c[0].probability, effect / (effect + 0.7), 1e-12);
@@ -171,21 +158,9 @@ TEST_F(MostProbableFits, HaveThePartsOfTheBestSetHoweverImprobable) {
   EXPECT_EQ(marks(1), (std::vector{3.0, 2.0}));
 }
 
-TEST(ChosenOfResample, IsThatOfTheChangedEvidenceWhateverTheOrderWas) {
-  std::vector<Candidate> c(3);
-  c[0].effects = {"a"};
-  c[1].effects = {"b"};
-  c[0].log_evidence = 0.0;
-  c[1].log_evidence = 100.0;
-  EXPECT_EQ(chosen_of_resample(c, {}, {}), 1U);
-  c[0].log_evidence = 200.0;
-  EXPECT_EQ(chosen_of_resample(c, {}, {}), 0U);
-}
-
 TEST(HiddenShare, CountsVariantsThatWouldNotHaveBeenSeen) {
-  VerdictOptions options;
+  DescriptionOptions options;
   options.surely_seen = 6.0;
-  options.small_effect = 0.5;
   std::vector<ScreenedVariant> screened(4);
   screened[0].visibility = 11.9;
   screened[1].visibility = 12.1;

@@ -66,7 +66,7 @@ TEST(LookAlikes, CountAllFieldsOfTheOtherEffectAndAllItsVariants) {
 }
 
 TEST(LookAlikes, AreParametersWhereTheseDrivesWouldNotHaveShownTheEffectBesideThem) {
-  const VerdictOptions options;
+  const DescriptionOptions options;
   const auto with = [&](double kept_share, double visibility, double of_other_variant) {
     return look_alikes(search_of({screened("side_bulldozing", {0.1, 0.0, 0.0}, kept_share, visibility),
                                   screened("side_bulldozing", {0.1, 0.0, 0.0}, kept_share, of_other_variant)},

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include "tests/sim/reference_models.h"
 
@@ -17,9 +18,13 @@ class OfferedModel : public ::testing::Test {
     campaign_.soils.resize(1);
   }
   // Of a verdict whose re-tuned model leaves so much of what the nominal one leaves of slip, and of current.
-  Diagnosis offered(Verdict verdict, double log_density_gain, double slip = 1.0, double current = 1.0) {
+  Diagnosis offered(Verdict verdict, double log_density_gain, double slip = 1.0, double current = 1.0,
+                    std::string_view at_its_end = {}) {
     FittedExplanation reported{{}, Hypothesis(campaign_, {})};
     reported.x = reported.hypothesis.neutral();
+    for (std::size_t p = 0; p < reported.x.size(); ++p)
+      if (const Parameter& parameter = reported.hypothesis.parameters()[p]; parameter.name == at_its_end)
+        reported.x[p] = parameter.highest;
     const auto count = static_cast<Eigen::Index>(reported.x.size());
     reported.covariance = Eigen::MatrixXd::Identity(count, count);
     Diagnosis d;
@@ -28,8 +33,8 @@ class OfferedModel : public ::testing::Test {
     d.gap[0].channel = Channel::kSlip;
     d.gap[1].channel = Channel::kCurrent;
     for (ChannelClosure& channel : d.gap) channel.nominal.value = 1.0;
-    d.gap[0].retuned.value = slip;
-    d.gap[1].retuned.value = current;
+    d.gap[0].retuned.value = d.gap[0].with_effects.value = slip;
+    d.gap[1].retuned.value = d.gap[1].with_effects.value = current;
     offer_model(reported, log_density_gain, HeldOutOptions{}, d);
     return d;
   }
@@ -38,9 +43,9 @@ class OfferedModel : public ::testing::Test {
 
 TEST_F(OfferedModel, OfNamedEffectsIsWhatTellsHeldOutDrivesBetter) {
   for (const Verdict verdict : {Verdict::kEffects, Verdict::kEffectSet}) {
-    EXPECT_TRUE(offered(verdict, 0.1).model);
+    EXPECT_TRUE(offered(verdict, 0.1, 0.5).model);
     for (const double gain : {0.0, -3.0, std::nan("")}) {
-      const Diagnosis none = offered(verdict, gain);
+      const Diagnosis none = offered(verdict, gain, 0.5);
       EXPECT_FALSE(none.model) << gain;
       ASSERT_EQ(none.notes.size(), 1U);
       EXPECT_NE(none.notes[0].find("did not improve drives held out"), std::string::npos) << none.notes[0];
@@ -48,8 +53,7 @@ TEST_F(OfferedModel, OfNamedEffectsIsWhatTellsHeldOutDrivesBetter) {
   }
 }
 
-TEST_F(OfferedModel, OfRetunedParametersIsAlwaysThereAndOfNoGapNever) {
-  EXPECT_TRUE(offered(Verdict::kParameters, -1.0).model);
+TEST_F(OfferedModel, OfNoGapIsNever) {
   for (const Verdict verdict : {Verdict::kNoGap, Verdict::kNotDetected, Verdict::kInsufficient}) {
     const Diagnosis d = offered(verdict, 1.0, 0.1, 0.1);
     EXPECT_FALSE(d.model);
@@ -57,15 +61,23 @@ TEST_F(OfferedModel, OfRetunedParametersIsAlwaysThereAndOfNoGapNever) {
   }
 }
 
-TEST_F(OfferedModel, BesideSomethingUnknownMustPredictNoChannelWorseAndOneMuchBetter) {
-  const Diagnosis nearer = offered(Verdict::kUnknown, 0.0, 0.5, 1.0);
-  EXPECT_TRUE(nearer.model);
-  ASSERT_EQ(nearer.notes.size(), 1U);
-  const Diagnosis worse = offered(Verdict::kUnknown, 0.0, 0.5, 1.3);
-  EXPECT_FALSE(worse.model);
-  ASSERT_EQ(worse.notes.size(), 1U);
-  EXPECT_NE(worse.notes[0].find("current 30 % worse"), std::string::npos) << worse.notes[0];
-  EXPECT_FALSE(offered(Verdict::kUnknown, 0.0, 0.95, 1.0).model) << "hardly better";
+// A partial answer came with a model that told held-out slip six times worse than the nominal one.
+TEST_F(OfferedModel, PredictsNoChannelWorseThanTheNominalOneWhateverTheVerdict) {
+  for (const Verdict verdict : {Verdict::kEffects, Verdict::kParameters, Verdict::kUnknown}) {
+    EXPECT_TRUE(offered(verdict, 1.0, 0.5, 1.0).model);
+    const Diagnosis worse = offered(verdict, 1.0, 0.5, 1.3);
+    EXPECT_FALSE(worse.model);
+    ASSERT_EQ(worse.notes.size(), 1U);
+    EXPECT_NE(worse.notes[0].find("current 30 % worse"), std::string::npos) << worse.notes[0];
+    EXPECT_FALSE(offered(verdict, 1.0, 1.0, 1.0).model) << "none better";
+  }
+}
+
+TEST_F(OfferedModel, HasNoParameterAtAnEndOfWhatItMayBe) {
+  const Diagnosis d = offered(Verdict::kParameters, 1.0, 0.5, 0.5, "friction");
+  EXPECT_FALSE(d.model);
+  ASSERT_EQ(d.notes.size(), 1U);
+  EXPECT_NE(d.notes[0].find("friction would stand at the end"), std::string::npos) << d.notes[0];
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ void write_marginals(Writer& w, const Diagnosis& d) {
         .text("name", m.name)
         .exact("probability", m.probability)
         .significant("closed_share", m.closed_share)
+        .significant("calibrated", m.calibrated)
         .end_object();
   w.end_array();
 }
@@ -324,7 +325,8 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   w.begin_object().text("format", "diagnosis/1").text("campaign", d.campaign);
   write_provenance(w, campaign, d);
   w.text("verdict", gap::name_of(d.verdict)).text("reason", d.reason);
-  w.text("overturned_by", d.overturned_by);
+  w.text("overturned_by", d.overturned_by).boolean("model_adequate", d.model_adequate);
+  w.significant("conflict_probability", d.conflict_probability);
   write_effects_found(w, d);
   write_marginals(w, d);
   write_reference(w, d);

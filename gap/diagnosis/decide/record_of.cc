@@ -37,7 +37,8 @@ SearchRecord record_of(const ExplanationSearch& search, const ClosedShares& shar
     const std::vector<std::string> outside = outside_causes_of(c);
     from_outside.insert(outside.begin(), outside.end());
     record.explanations.push_back({library_effects_of(c), outside, c.with_unknown, place_of(c.fit),
-                                   evidence_over_nothing(c, search.candidates), c.log_prior, c.other_variants});
+                                   evidence_over_nothing(c, search.candidates), c.log_prior, c.other_variants,
+                                   c.probability});
   }
   std::vector<std::string> causes(library.begin(), library.end());
   causes.insert(causes.end(), from_outside.begin(), from_outside.end());

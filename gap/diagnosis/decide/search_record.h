@@ -20,6 +20,9 @@ struct SearchRecord {
     double log_prior = 0.0;
     // Of each cause: logarithms of the evidence that its other variants have over the fitted one's.
     std::vector<std::vector<double>> other_variants;
+    double probability = 0.0;  // see posterior.h
+
+    bool unknown() const { return with_unknown || !outside.empty(); }
   };
   // How far a re-tuned parameter had to go from what was believed of it, in usual deviations.
   struct Shift {
@@ -43,8 +46,8 @@ struct SearchRecord {
   std::vector<Fit> fits;      // [0]: re-tuned parameters alone
   std::vector<Cause> causes;  // every effect of the library, then every cause from outside that was compared
   std::vector<double> scatter_deviations;  // of each scale's logarithm, above what was believed of it
-  double parameters_gain = 0.0;  // log evidence of free soils and motors over nominal ones
-  double hidden_share = 1.0;     // of the variants, those that these drives would not surely have shown
+  double parameters_gain = 0.0;            // log evidence of free soils and motors over nominal ones
+  double hidden_share = 1.0;  // of the variants, those that these drives would not surely have shown
 };
 
 }  // namespace slipway::gap

@@ -14,7 +14,7 @@ constexpr double kMostOfIt = 0.5;
 
 // The first variant of each effect whose signature is there.
 std::vector<const ScreenedVariant*> first_of_each(std::span<const ScreenedVariant> screened,
-                                                  const VerdictOptions& options) {
+                                                  const DescriptionOptions& options) {
   std::vector<const ScreenedVariant*> first;
   for (const ScreenedVariant& s : screened)
     if (s.signature.size() > 0 && s.signature.norm() > options.min_signature &&
@@ -36,7 +36,8 @@ double angle_deg(const Eigen::VectorXd& trace, std::span<const ScreenedVariant> 
 
 }  // namespace
 
-std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, const VerdictOptions& options) {
+std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search,
+                                             const DescriptionOptions& options) {
   const std::vector<const ScreenedVariant*> first = first_of_each(search.screened, options);
   std::vector<ConfusablePair> pairs;
   for (std::size_t a = 0; a < first.size(); ++a)
@@ -52,7 +53,7 @@ std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, co
   return pairs;
 }
 
-std::vector<LookAlike> look_alikes(const ExplanationSearch& search, const VerdictOptions& options) {
+std::vector<LookAlike> look_alikes(const ExplanationSearch& search, const DescriptionOptions& options) {
   std::vector<LookAlike> alike;
   const std::vector<const ScreenedVariant*> effects = first_of_each(search.screened, options);
   const auto compare = [&](const ScreenedVariant& effect, const ScreenedVariant& other,

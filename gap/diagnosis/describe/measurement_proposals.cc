@@ -55,7 +55,7 @@ double most_visible(const Unseen& effect, const Eigen::MatrixXd& taken) {
 }
 
 std::map<std::string, Unseen> unseen_effects(const ExplanationSearch& search, const Whitening& whitened,
-                                             const VerdictOptions& options) {
+                                             const DescriptionOptions& options) {
   std::map<std::string, Unseen> effects;
   std::set<std::string> seen;
   for (const ScreenedVariant& s : search.screened)
@@ -84,7 +84,7 @@ std::vector<std::string> names_of(const FittedExplanation& null, const Kinds& ki
 
 std::vector<MeasurementProposal> measurement_proposals(const ExplanationSearch& search,
                                                        const Whitening& whitened,
-                                                       const VerdictOptions& options) {
+                                                       const DescriptionOptions& options) {
   std::map<std::string, Unseen> unseen = unseen_effects(search, whitened, options);
   std::vector<MeasurementProposal> proposals;
   for (const Kinds& kinds : measurements()) {

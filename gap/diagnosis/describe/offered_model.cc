@@ -2,44 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
+
 namespace slipway::gap {
 namespace {
 
-// A model beside which something unknown is at work is still the better one to plan with, where no channel
-// of drives held out is predicted worse by it than by the nominal one and one is predicted much better. Notes
-// what was found.
-bool predicts_nearer_or_notes_why_not(const HeldOutOptions& options, Diagnosis& d) {
+// The parameter that stands at one of the two ends of what it may be. An end at its neutral value is no end:
+// there the parameter changes nothing.
+std::optional<std::string> parameter_at_its_end(const FittedExplanation& fit) {
+  for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = fit.hypothesis.parameters()[p];
+    const bool low = fit.x[p] <= parameter.lowest && parameter.lowest < parameter.neutral;
+    const bool high = fit.x[p] >= parameter.highest && parameter.highest > parameter.neutral;
+    if (low || high) return parameter.name;
+  }
+  return std::nullopt;
+}
+
+// Why the corrected model is no better one to plan with than the nominal one; nothing where it is.
+std::optional<std::string> why_not_better(const FittedExplanation& reported, double log_density_gain,
+                                          const HeldOutOptions& options, const Diagnosis& d) {
+  const bool with_effects = names_effects(d.verdict);
+  if (with_effects && !(log_density_gain > 0.0)) return "it did not improve drives held out of the fit";
+  if (const auto end = parameter_at_its_end(reported))
+    return fmt::format("{} would stand at the end of what it may be", *end);
   bool better = false;
   for (const ChannelClosure& c : d.gap) {
-    if (c.retuned.value > options.no_worse * c.nominal.value) {
-      d.notes.push_back(
-          fmt::format("no corrected model is offered: on drives held out of the fit the re-tuned one would "
-                      "predict {} {:.0f} % worse than the nominal one",
-                      name_of(c.channel), 100.0 * (c.retuned.value / c.nominal.value - 1.0)));
-      return false;
-    }
-    better = better || c.retuned.value < options.much_better * c.nominal.value;
+    const double corrected = with_effects ? c.with_effects.value : c.retuned.value;
+    if (corrected > options.no_worse * c.nominal.value)
+      return fmt::format(
+          "on drives held out of the fit it would predict {} {:.0f} % worse than the nominal one",
+          name_of(c.channel), 100.0 * (corrected / c.nominal.value - 1.0));
+    better = better || corrected < c.nominal.value;
   }
-  if (better)
-    d.notes.emplace_back(
-        "the corrected model is the re-tuned one, without the effects named, and leaves something "
-        "unexplained; it is offered because it predicted drives held out of the fit better than the "
-        "nominal one");
-  return better;
+  if (!better) return "it predicts no channel of drives held out of the fit better than the nominal one";
+  return std::nullopt;
 }
 
 }  // namespace
 
 void offer_model(const FittedExplanation& reported, double log_density_gain, const HeldOutOptions& options,
                  Diagnosis& d) {
-  if (names_effects(d.verdict) && !(log_density_gain > 0.0)) {
-    d.notes.push_back(
-        "the correction did not improve drives held out of the fit: no corrected model is offered");
+  if (d.verdict == Verdict::kNoGap || d.verdict == Verdict::kNotDetected ||
+      d.verdict == Verdict::kInsufficient)
+    return;
+  if (const auto why = why_not_better(reported, log_density_gain, options, d)) {
+    d.notes.push_back("no corrected model is offered: " + *why);
     return;
   }
-  const bool offered = names_effects(d.verdict) || d.verdict == Verdict::kParameters ||
-                       (d.verdict == Verdict::kUnknown && predicts_nearer_or_notes_why_not(options, d));
-  if (!offered) return;
+  if (d.verdict == Verdict::kUnknown)
+    d.notes.emplace_back("the corrected model is the re-tuned one and leaves something unexplained");
   d.model = reported.hypothesis.state(reported.x);
   d.model_effects = reported.hypothesis.settings(reported.x);
   d.left_open = posterior_of(reported);

@@ -87,7 +87,7 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
       order.push_back(c);
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return squares[a] > squares[b]; });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(options.verdict.max_unexplained_shapes)));
+  order.resize(std::min(order.size(), static_cast<std::size_t>(options.description.max_unexplained_shapes)));
   std::vector<ResidualShape> shapes;
   if (outside) shapes.push_back(shape_of(*outside, (of_outside + more_of_outside) / all));
   for (const Eigen::Index c : order) {

@@ -57,14 +57,6 @@ double ClosedShares::beside_others(const std::string& cause) const {
   return left > 0.0 ? std::clamp((rms_of(others) - rms_of(all)) / left, 0.0, 1.0) : 0.0;
 }
 
-double marginal_probability(std::span<const ComparedSet> sets, const std::string& effect) {
-  double sum = 0.0;
-  for (const ComparedSet& set : sets)
-    if (std::find(set.effects.begin(), set.effects.end(), effect) != set.effects.end())
-      sum += set.probability;
-  return sum;
-}
-
 EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect) {
   const auto own = std::find_if(marginals.begin(), marginals.end(),
                                 [&](const EffectMarginal& m) { return m.name == effect; });

@@ -42,9 +42,6 @@ class ClosedShares {
   double nothing_ = 0.0, floor_ = 1.0, gap_ = 0.0;
 };
 
-// The sum of the probabilities of all sets that have the effect.
-double marginal_probability(std::span<const ComparedSet> sets, const std::string& effect);
-
 // The effect's own among them; probability and share are 0 where it is not.
 EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect);
 

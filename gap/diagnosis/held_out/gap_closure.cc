@@ -18,7 +18,7 @@ std::optional<double> closed(const HeldOutErrors& e, std::size_t c) {
   return closed_share(e.retuned[c], e.with[c], e.floor[c], e.count[c]);
 }
 
-// A window of the reported correction, for pictures and maps.
+// A window, for pictures and maps.
 void keep(const PreparedCampaign& prepared, const DriveCampaign& campaign,
           const HeldOutComparison& comparison, const HeldOutErrors& errors, std::size_t w,
           GapClosure& closure) {
@@ -55,18 +55,18 @@ std::vector<ChannelClosure> channels_of(const Bootstrapped& sums) {
   return channels;
 }
 
-// The corrections tried fold after fold.
+// The correction tried fold after fold.
 class FoldedErrors {
  public:
-  FoldedErrors(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-               const CorrectionChoice& choice, const DriveResampling& drives, const DiagnosisOptions& options)
+  FoldedErrors(const PreparedCampaign& prepared, const DriveCampaign& campaign, const Correction& correction,
+               const DriveResampling& drives, const DiagnosisOptions& options)
       : prepared_(prepared),
         campaign_(campaign),
-        choice_(choice),
+        correction_(correction),
         drives_(drives),
         options_(options),
         tally_(prepared, campaign.drives.size(), options.held_out),
-        errors_(choice.corrections.size(), std::vector<HeldOutErrors>(drives.group_count)) {}
+        errors_(drives.group_count) {}
 
   // False where it was cancelled.
   bool add_fold(int fold, const Progress& progress) {
@@ -74,14 +74,11 @@ class FoldedErrors {
     if (std::find(learnt_from.begin(), learnt_from.end(), false) == learnt_from.end()) return true;
     const std::vector<bool> seen = rows_of(*prepared_.model, learnt_from);
     const FittedExplanation retuned = retuned_on(prepared_, seen, options_);
-    for (std::size_t k = 0; k < choice_.corrections.size(); ++k) {
-      if (progress.cancelled()) return false;
-      const HeldOutComparison comparison(prepared_, retuned.residuals, choice_.corrections[k](retuned, seen),
-                                         options_.fit);
-      for (std::size_t w = 0; w < prepared_.windows.size(); ++w)
-        if (!learnt_from[prepared_.windows[w].drive] && prepared_.model->used(w))
-          add_window(k, w, comparison);
-    }
+    if (progress.cancelled()) return false;
+    const HeldOutComparison comparison(prepared_, retuned.residuals, correction_(retuned, seen),
+                                       options_.fit);
+    for (std::size_t w = 0; w < prepared_.windows.size(); ++w)
+      if (!learnt_from[prepared_.windows[w].drive] && prepared_.model->used(w)) add_window(w, comparison);
     return true;
   }
 
@@ -89,9 +86,9 @@ class FoldedErrors {
   GapClosure closure() {
     closure_.planners_view = tally_.view();
     double groups = 0.0;
-    for (const HeldOutErrors& e : errors_[0]) groups += e.scaled_count > 0.0 ? 1.0 : 0.0;
+    for (const HeldOutErrors& e : errors_) groups += e.scaled_count > 0.0 ? 1.0 : 0.0;
     if (groups == 0.0) return std::move(closure_);
-    const Bootstrapped sums = bootstrap_errors(errors_, choice_.of_resample, drives_.resamples);
+    const Bootstrapped sums = bootstrap_errors(errors_, drives_.resamples);
     closure_.channels = channels_of(sums);
     closure_.closed_fraction = sums.closed_interval([](const HeldOutErrors& e) { return closed(e); });
     closure_.log_density_gain = sums.all.log_gain / groups;
@@ -99,21 +96,20 @@ class FoldedErrors {
   }
 
  private:
-  void add_window(std::size_t correction, std::size_t w, const HeldOutComparison& comparison) {
+  void add_window(std::size_t w, const HeldOutComparison& comparison) {
     const HeldOutErrors of_window = comparison.errors(w);
-    errors_[correction][drives_.groups[prepared_.windows[w].drive]].add(of_window);
-    if (correction > 0) return;
+    errors_[drives_.groups[prepared_.windows[w].drive]].add(of_window);
     tally_.add(w, comparison);
     keep(prepared_, campaign_, comparison, of_window, w, closure_);
   }
 
   const PreparedCampaign& prepared_;
   const DriveCampaign& campaign_;
-  const CorrectionChoice& choice_;
+  const Correction& correction_;
   const DriveResampling& drives_;
   const DiagnosisOptions& options_;
   PlannersTally tally_;
-  std::vector<std::vector<HeldOutErrors>> errors_;  // by correction and group of drives
+  std::vector<HeldOutErrors> errors_;  // by group of drives
   GapClosure closure_;
 };
 
@@ -151,23 +147,21 @@ std::optional<Interval> Bootstrapped::closed_interval(
   return Interval{*value, quantile(std::move(low), 0.05), quantile(std::move(high), 0.95)};
 }
 
-Bootstrapped bootstrap_errors(std::span<const std::vector<HeldOutErrors>> errors,
-                              std::span<const std::size_t> of_resample,
+Bootstrapped bootstrap_errors(std::span<const HeldOutErrors> errors,
                               std::span<const std::vector<std::size_t>> resamples) {
   Bootstrapped sums;
-  for (const HeldOutErrors& e : errors[0]) sums.all.add(e);
-  for (std::size_t b = 0; b < resamples.size(); ++b) {
-    const std::size_t chosen = of_resample.empty() ? 0 : of_resample[b];
+  for (const HeldOutErrors& e : errors) sums.all.add(e);
+  for (const std::vector<std::size_t>& resample : resamples) {
     sums.resampled.emplace_back();
-    for (const std::size_t group : resamples[b]) sums.resampled.back().add(errors[chosen][group]);
+    for (const std::size_t group : resample) sums.resampled.back().add(errors[group]);
   }
   return sums;
 }
 
 Result<GapClosure> close_gap_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                         const CorrectionChoice& choice, const DriveResampling& drives,
+                                         const Correction& correction, const DriveResampling& drives,
                                          const DiagnosisOptions& options, Progress& progress) {
-  FoldedErrors errors(prepared, campaign, choice, drives, options);
+  FoldedErrors errors(prepared, campaign, correction, drives, options);
   for (int f = 0; f < options.folds; ++f) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress.report("predicting held-out drives", 0.8 + 0.15 * f / options.folds);

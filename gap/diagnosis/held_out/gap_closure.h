@@ -7,7 +7,6 @@
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/diagnosis/held_out/correction_choice.h"
 #include "gap/diagnosis/held_out/held_out.h"
 #include "gap/diagnosis/model/drive_resampling.h"
 #include "gap/diagnosis/result/result.h"
@@ -27,9 +26,9 @@ struct GapClosure {
   std::vector<WindowGap> windows;
 };
 
-// Intervals are over resamples of drives, the choice repeated in each as far as `choice` says.
+// Intervals are over resamples of drives.
 Result<GapClosure> close_gap_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                         const CorrectionChoice& choice, const DriveResampling& drives,
+                                         const Correction& correction, const DriveResampling& drives,
                                          const DiagnosisOptions& options, Progress& progress);
 
 // Whether each drive is learnt from in a fold, by the groups of drives and their repeats. Folds alternate
@@ -51,9 +50,8 @@ struct Bootstrapped {
   std::optional<Interval> closed_interval(
       const std::function<std::optional<double>(const HeldOutErrors&)>& number) const;
 };
-// `errors`: by correction and group of drives; `of_resample` as in CorrectionChoice.
-Bootstrapped bootstrap_errors(std::span<const std::vector<HeldOutErrors>> errors,
-                              std::span<const std::size_t> of_resample,
+// `errors`: by group of drives.
+Bootstrapped bootstrap_errors(std::span<const HeldOutErrors> errors,
                               std::span<const std::vector<std::size_t>> resamples);
 
 }  // namespace slipway::gap

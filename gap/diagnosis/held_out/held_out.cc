@@ -16,8 +16,8 @@ FitOptions fit_options_of(const DiagnosisOptions& options) {
 Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
                     const DiagnosisOptions& options) {
   return [&](const FittedExplanation&, const std::vector<bool>& seen) {
-    return fit_explanation(explanation.hypothesis, *prepared.model, *prepared.noise, explanation.x,
-                           fit_options_of(options), options.search.threads, seen)
+    return fit_explanation(explanation.hypothesis, *prepared.model, *prepared.noise,
+                           ModeStart::at(explanation), fit_options_of(options), options.search.threads, seen)
         .residuals;
   };
 }
@@ -28,8 +28,9 @@ Correction uncorrected() {
 
 FittedExplanation retuned_on(const PreparedCampaign& prepared, const std::vector<bool>& seen,
                              const DiagnosisOptions& options) {
-  return fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, prepared.null->x,
-                         fit_options_of(options), options.search.threads, seen);
+  return fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise,
+                         ModeStart::at(*prepared.null), fit_options_of(options), options.search.threads,
+                         seen);
 }
 
 std::vector<bool> rows_of(const WindowModel& model, const std::vector<bool>& drives) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "gap/diagnosis/decide/decision.h"
 #include "gap/diagnosis/decide/search_record.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "gap/diagnosis/model/drive_window.h"
@@ -22,16 +23,6 @@
 #include "sim/rover/effect_setting.h"
 
 namespace slipway::gap {
-
-enum class Verdict { kNoGap, kNotDetected, kParameters, kEffects, kEffectSet, kUnknown, kInsufficient };
-std::string_view name_of(Verdict verdict);  // "no_gap", ...
-inline bool names_effects(Verdict verdict) {
-  return verdict == Verdict::kEffects || verdict == Verdict::kEffectSet;
-}
-// Whether it says that nothing is missing from the model, or nothing that these drives show.
-inline bool finds_nothing_missing(Verdict verdict) {
-  return verdict == Verdict::kNoGap || verdict == Verdict::kNotDetected || verdict == Verdict::kParameters;
-}
 
 struct FoundParameter {
   std::string name;  // of the effect's field, in its unit
@@ -203,6 +194,7 @@ struct EffectMarginal {
   double closed_share = 0.0;
   // Logarithm of the evidence of the best explanation with it over that of the best one without it.
   double log_evidence = 0.0;
+  double calibrated = 0.0;  // probability that it is at work, by which it is named: see calibration.h
 };
 
 // Something unknown of a known form: a force from outside, or a sensor that reads wrongly.
@@ -248,6 +240,8 @@ struct Diagnosis {
   std::vector<ListedOption> options;
   std::vector<std::string> library;  // effects that were looked for
   Verdict verdict = Verdict::kInsufficient;
+  bool model_adequate = true;  // what was believed of soils, laws and scatter stands: see adequacy.h
+  double conflict_probability = 1.0;
   bool partial = false;       // effects are named, and something unexplained remains beside them
   std::string reason;         // one sentence
   std::string overturned_by;  // what would

@@ -35,10 +35,7 @@ double evidence_over_nothing(const Candidate& candidate, std::span<const Candida
 std::vector<std::string> library_effects_of(const Candidate& candidate);
 std::vector<std::string> outside_causes_of(const Candidate& candidate);
 
-// The candidates' probabilities from evidence and prior: P = sum_k weight_k exp(share_k E + log prior) / Z_k,
-// each share of the log evidence E normalised over the candidates by itself. Whether something is missing is
-// told from more of it than which: to E of all but nothing (of_missing - 1) times the difference between the
-// greatest E and that of nothing is added.
+// The candidates' probabilities from evidence and prior, see decide/posterior.h.
 void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
 // Weighs them and puts the most probable first.
 void rank(std::span<Candidate> candidates, const EvidenceOptions& options);

@@ -156,99 +156,56 @@ void list_second_search(const SecondSearchOptions& options, Lister& list) {
 
 void list_priors(const PriorOptions& options, Lister& list) {
   list.step("priors");
-  const auto& [nothing, one_effect, two_effects, something_else, one_outside, one_and_something_else,
-               one_and_one_outside, twin_share, pair_beside_something_else_log] = options;
+  const auto& [nothing, one_effect, two_effects, something_else, one_outside, twin_share] = options;
   SLIPWAY_FIELD(nothing);
   SLIPWAY_FIELD(one_effect);
   SLIPWAY_FIELD(two_effects);
   SLIPWAY_FIELD(something_else);
   SLIPWAY_FIELD(one_outside);
-  SLIPWAY_FIELD(one_and_something_else);
-  SLIPWAY_FIELD(one_and_one_outside);
   SLIPWAY_FIELD(twin_share);
-  SLIPWAY_FIELD(pair_beside_something_else_log);
 }
 
 void list_evidence(const EvidenceOptions& options, Lister& list) {
   list.step("evidence");
-  const auto& [pairs, of_missing, whole] = options;
-  std::array<double, std::tuple_size_v<std::remove_cvref_t<decltype(pairs)>>> shares{}, weights{};
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    shares[i] = pairs[i].share;
-    weights[i] = pairs[i].weight;
-  }
-  SLIPWAY_FIELD(shares);
-  SLIPWAY_FIELD(weights);
-  SLIPWAY_FIELD(of_missing);
-  SLIPWAY_FIELD(whole);
+  const auto& [share] = options;
+  SLIPWAY_FIELD(share);
 }
 
 void list_selection(const SelectionOptions& options, Lister& list) {
   list.step("selection");
-  const auto& [certain, unknown_majority, simpler_share, alike_form_share, min_running, max_running] =
-      options;
-  SLIPWAY_FIELD(certain);
-  SLIPWAY_FIELD(unknown_majority);
-  SLIPWAY_FIELD(simpler_share);
-  SLIPWAY_FIELD(alike_form_share);
+  const auto& [min_running, max_running] = options;
   SLIPWAY_FIELD(min_running);
   SLIPWAY_FIELD(max_running);
 }
 
-void list_verdict(const VerdictOptions& options, Lister& list) {
-  list.step("verdict");
-  const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
-               beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
-               min_unknown_evidence, min_unknown_probability, max_nothing_share, max_soil_shift,
-               max_closure_shift, believable_share, max_stand_in_shift, rival_share, min_doubt,
-               determined_share, max_angle_deg, min_signature, max_unexplained_shapes, name_by_marginals,
-               min_closed_share, min_named_share, strong_evidence, min_share_of_law, min_share_of_rest,
-               min_partial_probability, min_partial_share, min_certain_probability, min_certain_share,
-               min_probability_closing_most] = options;
+void list_decision(const DecisionOptions& options, Lister& list) {
+  list.step("decision");
+  const auto& [min_drives, min_windows, wrong_name, missed_name, false_alarm, missed_alarm, conflict] =
+      options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
-  SLIPWAY_FIELD(min_parameters_gain);
+  SLIPWAY_FIELD(wrong_name);
+  SLIPWAY_FIELD(missed_name);
+  SLIPWAY_FIELD(false_alarm);
+  SLIPWAY_FIELD(missed_alarm);
+  SLIPWAY_FIELD(conflict);
+}
+
+void list_description(const DescriptionOptions& options, Lister& list) {
+  list.step("description");
+  const auto& [surely_seen, determined_share, max_angle_deg, min_signature, max_unexplained_shapes] = options;
   SLIPWAY_FIELD(surely_seen);
-  SLIPWAY_FIELD(small_effect);
-  SLIPWAY_FIELD(max_hidden_share);
-  SLIPWAY_FIELD(beyond_chance);
-  SLIPWAY_FIELD(max_left_of_nothing);
-  SLIPWAY_FIELD(max_left_beside_effects);
-  SLIPWAY_FIELD(forgiven_closure);
-  SLIPWAY_FIELD(max_scatter);
-  SLIPWAY_FIELD(min_unknown_evidence);
-  SLIPWAY_FIELD(min_unknown_probability);
-  SLIPWAY_FIELD(max_nothing_share);
-  SLIPWAY_FIELD(max_soil_shift);
-  SLIPWAY_FIELD(max_closure_shift);
-  SLIPWAY_FIELD(believable_share);
-  SLIPWAY_FIELD(max_stand_in_shift);
-  SLIPWAY_FIELD(rival_share);
-  SLIPWAY_FIELD(min_doubt);
   SLIPWAY_FIELD(determined_share);
   SLIPWAY_FIELD(max_angle_deg);
   SLIPWAY_FIELD(min_signature);
   SLIPWAY_FIELD(max_unexplained_shapes);
-  SLIPWAY_FIELD(name_by_marginals);
-  SLIPWAY_FIELD(min_closed_share);
-  SLIPWAY_FIELD(min_named_share);
-  SLIPWAY_FIELD(strong_evidence);
-  SLIPWAY_FIELD(min_share_of_law);
-  SLIPWAY_FIELD(min_share_of_rest);
-  SLIPWAY_FIELD(min_partial_probability);
-  SLIPWAY_FIELD(min_partial_share);
-  SLIPWAY_FIELD(min_certain_probability);
-  SLIPWAY_FIELD(min_certain_share);
-  SLIPWAY_FIELD(min_probability_closing_most);
 }
 
 void list_held_out(const HeldOutOptions& options, Lister& list) {
   list.step("held_out");
-  const auto& [max_iterations, min_chosen_share, no_worse, much_better, clearly_more_slip] = options;
+  const auto& [max_iterations, no_worse, clearly_more_slip] = options;
   SLIPWAY_FIELD(max_iterations);
-  SLIPWAY_FIELD(min_chosen_share);
   SLIPWAY_FIELD(no_worse);
-  SLIPWAY_FIELD(much_better);
   SLIPWAY_FIELD(clearly_more_slip);
 }
 
@@ -317,7 +274,7 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
   const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open,
-               min_closed_share, max_left, evidence_share] = options;
+               evidence_share] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
@@ -327,8 +284,6 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
   SLIPWAY_FIELD(rounds);
   SLIPWAY_FIELD(max_open);
   SLIPWAY_FIELD(min_open);
-  SLIPWAY_FIELD(min_closed_share);
-  SLIPWAY_FIELD(max_left);
   SLIPWAY_FIELD(evidence_share);
 }
 
@@ -338,8 +293,8 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
 
 std::vector<ListedOption> listed_options(const DiagnosisOptions& options) {
   const auto& [windows, noise, preparation, fit, discrepancy, soft_patch, search, second_search, priors,
-               evidence, selection, verdict, held_out, extrapolation, slices, location, next_drives,
-               reference, seed, given, folds, resamples] = options;
+               evidence, selection, decision, description, held_out, extrapolation, slices, location,
+               next_drives, reference, seed, given, folds, resamples] = options;
   static_cast<void>(seed);
   Lister list;
   list_windows(windows, list);
@@ -353,7 +308,8 @@ std::vector<ListedOption> listed_options(const DiagnosisOptions& options) {
   list_priors(priors, list);
   list_evidence(evidence, list);
   list_selection(selection, list);
-  list_verdict(verdict, list);
+  list_decision(decision, list);
+  list_description(description, list);
   list_held_out(held_out, list);
   list_extrapolation(extrapolation, list);
   list_slices(slices, list);

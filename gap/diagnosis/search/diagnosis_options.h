@@ -130,130 +130,54 @@ struct SecondSearchOptions {
 // the library does not have, of a known form or of none. A diagnosis is asked for where something seems to be
 // wrong. They add up to 1 but for pairs beside something else.
 struct PriorOptions {
-  double nothing = 0.21;
-  double one_effect = 0.395;   // shared by the effects of the library
-  double two_effects = 0.131;  // shared by their pairs
-  double something_else = 0.092;
-  double one_outside = 0.092;  // shared by the causes from outside
-  double one_and_something_else = 0.04;
-  double one_and_one_outside = 0.04;
+  double nothing = 0.2;
+  double one_effect = 0.39;    // shared by the effects of the library
+  double two_effects = 0.132;   // shared by their pairs
+  double something_else = 0.1;  // of no known form; beside effects as often
+  double one_outside = 0.1;     // shared by the causes from outside; beside an effect as often
   // Of a cause from outside that no drive tells from an effect of the library: its part of what the others
   // have.
   double twin_share = 0.1;
-  double pair_beside_something_else_log = -2.0;  // logarithm of its prior over that of the pair alone
 };
 
-// How much of the log evidence is believed, since no simulator is exact: with one share alone answers of
-// "0.99" were wrong in one case of four on sealed campaigns; under the second share a set keeps some
-// probability unless it is far behind. See weigh.
-struct EvidenceShare {
-  double share, weight;
-};
+// How much of the log evidence is believed, since no simulator is exact: see posterior.h.
 struct EvidenceOptions {
-  std::array<EvidenceShare, 2> shares{EvidenceShare{0.3, 0.85}, EvidenceShare{0.03, 0.15}};
-  // That something is missing is believed by so many times the share that is believed of which it is:
-  // simulators are further apart in what an effect looks like than in what drives without one look like.
-  double of_missing = 4.0 / 3.0;
-  bool whole = false;  // believed as it stands, for ablations
+  double share = 0.3;
 };
 
-// Which of the compared sets the answer is: see selection.h.
+// Which explanations resampled drives choose among: see selection.h.
 struct SelectionOptions {
-  double certain = 0.5;           // probability from which the first set is the answer whatever follows
-  double unknown_majority = 0.5;  // of all sets with something else, beyond which one of them is the answer
-  double simpler_share = 0.5;  // of the first set's probability, for which a smaller one of the same is taken
-  // Of the probability of a cause from outside, with which another one is as probable: see best_form.
-  double alike_form_share = 0.5;
-  double min_running = 0.01;  // probability of sets that resamples choose among
-  int max_running = 6;        // of them, at most
+  double min_running = 0.01;  // least probability
+  int max_running = 6;
 };
 
-// What the chosen set means: see verdict.h.
-struct VerdictOptions {
-  int min_drives = 3;   // fewer say nothing of what differs from drive to drive
-  int min_windows = 6;  // fewer than parameters
-  // Gain of soils and motors being free over their being nominal, closures free in either case, beyond which
-  // parameters are called mis-set.
-  double min_parameters_gain = 20.0;
-  double surely_seen = 6.0;       // standard errors that the believed share of the evidence asks for
-  double small_effect = 0.5;      // of an effect's usual size: what drives should have shown
-  double max_hidden_share = 0.5;  // of the variants that could have hidden at that size, for no gap
-  double beyond_chance = 2.0;     // standard errors by which harsh drives are predicted worse
-  // What may be left on held-out drives over the floor, nothing being named; and beside named effects, whose
-  // equation may be another's.
-  double max_left_of_nothing = 1.25;
-  double max_left_beside_effects = 1.5;
-  double forgiven_closure = 0.5;  // share of the channel's gap: effects that close so much may leave the rest
-  // Prior deviations by which a scale of the drives' own scatter may be above what was believed of it,
-  // without a reference (6.8 times); beyond them it hides something. Healthy campaigns came to 0.6 at most.
-  double max_scatter = 1.6;
-  // Of something of no known form, alone, the log evidence over nothing below which it may be chance.
-  double min_unknown_evidence = 4.0;
-  // The same of the probability of all that has something unknown. Of 1,458 answers to sealed campaigns 11
-  // were `unknown` by less: 5 of healthy drives, 5 with an effect of the library, 1 with a cause from
-  // outside.
-  double min_unknown_probability = 0.6;
-  // Share of the resampled campaigns that show nothing missing, beyond which named effects may be chance. Of
-  // some 100 right answers to sealed campaigns none came to more than 0.08; drives on mis-set soils, with a
-  // false name, came to 0.26.
-  double max_nothing_share = 0.15;
-  // Usual prior deviations by which a soil may be off what was believed of it beside named effects, all of
-  // its parameters and the ratio of its shear moduli together, without a reference. A cause that the library
-  // lacks bends soils to a name that is not its own; of 115 right answers 4 came to more, 3 of them a patch.
-  // Six numbers that are believed as they should be come to more once in 9,000 times.
-  double max_soil_shift = 5.25;
-  // The same of a closure, whatever the answer: of c1 0.3, so that loose sand's 0.18 may be compact sand's
-  // 0.43 [Wong and Reece 1967]. In 24 healthy campaigns none came to more than 1.1.
-  double max_closure_shift = 6.0;
-  // Of the probability of a set whose soil or closure is further off than that: a larger set of the same
-  // effects that has as much, and beside which neither is, is the answer.
-  double believable_share = 0.5;
-  // How far off a closure may be beside which an effect is left out that closes little: beyond it, the
-  // closure stands in for the effect. Where the effect was not there, closures of 11 sealed campaigns came
-  // to 2.7 at most.
-  double max_stand_in_shift = 4.0;
-  double rival_share = 0.75;       // of the answer's probability: a rival with as much is alike
-  double min_doubt = 0.9;          // probability of something unknown where an answer left a gap
+// What the answer is decided by: see decision.h. The losses count in units of a missed name.
+struct DecisionOptions {
+  int min_drives = 3;         // fewer say nothing of what differs from drive to drive
+  int min_windows = 6;        // fewer than parameters
+  double wrong_name = 3.0;    // a team changes a model, or a rover, for a cause that is not there
+  double missed_name = 1.0;   // the cause stays to be found
+  double false_alarm = 1.0;   // something is said to be missing from a model that is right
+  double missed_alarm = 1.0;  // a model that lacks something goes on planning
+  // Probability of a conflict with what was believed, below which the wheel model is not adequate.
+  double conflict = 1e-4;
+};
+
+// What is told beside the verdict.
+struct DescriptionOptions {
+  double surely_seen = 6.0;        // standard errors with which an effect would surely have been seen
   double determined_share = 0.7;   // of a prior deviation, below which drives determine a parameter
   double max_angle_deg = 30.0;     // between signatures of effects that are hard to tell apart
   double min_signature = 1.0;      // deviations, of signatures that are compared
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
-  bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
-  double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
-  // The same of all that is named together. What closes less is something else where its logarithm of the
-  // evidence over nothing is strong (the answer is `unknown`), and otherwise not worth a name: of three such
-  // names on sealed campaigns one was right, and one was of a healthy campaign.
-  double min_named_share = 0.1;
-  double strong_evidence = 50.0;
-  // Of what another law of ground or motors closes, the same of a second law, and of what acts at a place
-  // beside a law of the ground: the square of DiscrepancyOptions::form_imprecision, by which the first one's
-  // equation may be off.
-  double min_share_of_law = 0.09;
-  // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
-  // closes nearly all leaves little of the whole to close.
-  double min_share_of_rest = 0.05;
-  // Beside something unknown an effect is named from this marginal probability and this share on.
-  double min_partial_probability = 0.9;
-  double min_partial_share = 0.5;
-  // What closes less, but min_certain_share, must be as good as certain where the rest has a known form: a
-  // cause that the library lacks looks like an effect and a force beside it. Where it has none the effect
-  // must be no law of all wheels, since another wheel law looks like several, and have strong_evidence over
-  // the best explanation without it.
-  double min_certain_probability = 0.99;
-  double min_certain_share = 0.1;
-  // Where the rest has a known form, of an effect that closes min_partial_share, or a law of all wheels that
-  // closes as much of what that form leaves: what is more probable than not, and closes most, is named.
-  double min_probability_closing_most = 0.5;
 };
 
 // Predictions of drives that a fit has not seen: see gap_closure.h.
 struct HeldOutOptions {
-  int max_iterations = 4;          // of fits to folds, which begin at the answer of all drives
-  double min_chosen_share = 0.02;  // of resamples: sets that fewer choose are not fitted to folds
-  // A re-tuned model beside something unknown is offered where no channel is predicted worse than by the
-  // nominal one, this many times, and one is predicted better, by this factor.
+  int max_iterations = 4;  // of fits to folds, which begin at the answer of all drives
+  // A corrected model is offered where no channel is predicted worse by it than by the nominal one, this many
+  // times.
   double no_worse = 1.02;
-  double much_better = 0.8;
   double clearly_more_slip = 0.05;  // between drives' mean slips that a planner could rank
 };
 
@@ -333,13 +257,7 @@ struct ReferenceOptions {
   int rounds = 2;          // parameters and difference need each other
   int max_open = 120;      // directions in which the difference is left open: those of most effect
   double min_open = 0.01;  // squared deviations in all, below which a direction is none
-  // Of the held-out gap: VerdictOptions::min_closed_share with a reference. What other physics leaves of a
-  // difference beyond what the reference met has closed a tenth at most, what has changed a third and more.
-  double min_closed_share = 0.15;
-  // At least this are VerdictOptions::max_left_of_nothing and max_left_beside_effects with a reference:
-  // drives elsewhere meet what it was not taught on, and healthy ones on hills left 1.5 times their floor.
-  double max_left = 2.0;
-  // Of EvidenceOptions::shares, with a reference: what it taught on its own drives counts as evidence on
+  // Of EvidenceOptions::share, with a reference: what it taught on its own drives counts as evidence on
   // others, and is less to be believed there.
   double evidence_share = 0.4;
 };
@@ -356,7 +274,8 @@ struct DiagnosisOptions {
   PriorOptions priors;
   EvidenceOptions evidence;
   SelectionOptions selection;
-  VerdictOptions verdict;
+  DecisionOptions decision;
+  DescriptionOptions description;
   HeldOutOptions held_out;
   ExtrapolationOptions extrapolation;
   SliceOptions slices;

@@ -143,9 +143,9 @@ void keep_better(FittedExplanation& fit, FittedExplanation other) {
 }
 
 FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
-                                  const NoiseModel& noise, std::span<const double> start,
-                                  const FitOptions& options, std::size_t threads,
-                                  const std::vector<bool>& fitted_rows, double must_reach) {
+                                  const NoiseModel& noise, const ModeStart& start, const FitOptions& options,
+                                  std::size_t threads, const std::vector<bool>& fitted_rows,
+                                  double must_reach) {
   const SimulatedDrives drives(hypothesis, model, noise, threads);
   if (leaves_open(model)) must_reach = kAnyEvidence;
   FittedExplanation fit{find_mode(drives, start, options, fitted_rows, must_reach), hypothesis};

@@ -26,9 +26,8 @@ void keep_better(FittedExplanation& fit, FittedExplanation other);
 // Rows of `fitted_rows` alone weigh (empty: all). For `must_reach` see find_mode; it is not asked for where
 // reference drives left open what adds to the evidence.
 FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
-                                  const NoiseModel& noise, std::span<const double> start,
-                                  const FitOptions& options, std::size_t threads,
-                                  const std::vector<bool>& fitted_rows = {},
+                                  const NoiseModel& noise, const ModeStart& start, const FitOptions& options,
+                                  std::size_t threads, const std::vector<bool>& fitted_rows = {},
                                   double must_reach = kAnyEvidence);
 
 // Where another fit found what both have, by name; what it does not have is neutral.

@@ -73,7 +73,7 @@ class Searcher {
       progress_.report("fitting effects",
                        0.1 + 0.4 * std::min(1.0, static_cast<double>(search_.fits.size()) /
                                                      (2.0 * options_.search.max_refitted)));
-      const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
+      const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s, search_.fits[0]);
       FittedExplanation& fit = search_.fits[index];
       if (const std::vector<double>* const other = variants_.start_from_nominal(s.variant))
         keep_better(fit, fitted(fit.hypothesis, *other, fit.log_evidence));
@@ -126,7 +126,8 @@ class Searcher {
         std::vector<EffectVariant> effects(search_.fits[base].hypothesis.effects().begin(),
                                            search_.fits[base].hypothesis.effects().end());
         effects.push_back(v);
-        const std::size_t pair = pairs_[names] = add_fit(Hypothesis(campaign_, effects), second.start);
+        const std::size_t pair = pairs_[names] =
+            add_fit(Hypothesis(campaign_, effects), second, search_.fits[base]);
         if (went_far(search_.fits[base], options_.search.max_linear_shift) ||
             went_far(search_.fits[pair], options_.search.max_linear_shift))
           fit_from_neutral(search_.fits[pair]);
@@ -199,7 +200,7 @@ class Searcher {
   }
 
   // Given up where it would come neither near the best fit nor to what it competes with.
-  FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start,
+  FittedExplanation fitted(const Hypothesis& hypothesis, const ModeStart& start,
                            double must_reach = kAnyEvidence) const {
     return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads, {},
                            std::max(must_reach, best_evidence() - options_.search.max_behind));
@@ -209,9 +210,18 @@ class Searcher {
     for (const FittedExplanation& fit : search_.fits) best = std::max(best, fit.log_evidence);
     return best;
   }
-  std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
+  std::size_t add_fit(const Hypothesis& hypothesis, const ModeStart& start) {
     search_.fits.push_back(fitted(hypothesis, start));
     return search_.fits.size() - 1;
+  }
+  // A variant that was screened beside a fit, with the derivatives that screening took there.
+  std::size_t add_fit(const Hypothesis& hypothesis, const ScreenedEffect& screened,
+                      const FittedExplanation& beside) {
+    std::vector<double> at = hypothesis.neutral();
+    std::copy(beside.x.begin(), beside.x.end(), at.begin());
+    Eigen::MatrixXd jacobian(beside.jacobian.rows(), beside.jacobian.cols() + screened.columns.cols());
+    jacobian << beside.jacobian, screened.columns;
+    return add_fit(hypothesis, {screened.start, at, beside.residuals, jacobian});
   }
 
   void sort_singles() {

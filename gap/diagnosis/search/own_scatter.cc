@@ -84,7 +84,8 @@ class ScatterSearch {
   }
 
   FittedExplanation fitted_again(const FittedExplanation& fit) const {
-    return fit_explanation(fit.hypothesis, model_, own_, fit.x, options_.fit, options_.search.threads);
+    return fit_explanation(fit.hypothesis, model_, own_, ModeStart::at(fit), options_.fit,
+                           options_.search.threads);
   }
 
   void estimate_beside(const FittedExplanation& fit, double discrepancy_size) {

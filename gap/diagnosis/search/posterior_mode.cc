@@ -38,8 +38,9 @@ class ModeSearch {
         loss_{options.huber},
         precision_(model.prior_precision()) {}
 
-  PosteriorMode run(std::span<const double> start) {
-    at_ = trial_at({start.begin(), start.end()});
+  PosteriorMode run(const ModeStart& start) {
+    at_ = trial_at({start.x.begin(), start.x.end()});
+    if (start.jacobian != nullptr) take_known(start);
     for (int iteration = 0;; ++iteration) {
       const bool given_up = is_too_slow(options_.max_iterations - iteration);
       const bool last = given_up || converged_ || iteration >= options_.max_iterations || model_.cancelled();
@@ -81,10 +82,31 @@ class ModeSearch {
     return model_.stood(row) ? options_.both_stuck : options_.no_answer;
   }
 
+  void take_known(const ModeStart& start) {
+    jacobian_ = *start.jacobian;
+    const bool here = std::equal(start.x.begin(), start.x.end(), start.known_at.begin());
+    central_ = fresh_ = here && start.central;
+    if (!here)
+      follow(at_.u - in_prior_units(model_.parameters(), start.known_at), *start.residuals - at_.residuals);
+    columns_ = model_.whiten(jacobian_);
+  }
+
+  // The derivatives after a step in u by which predictions changed so much: as before across the step, as
+  // seen along it. Rows without derivatives have no answer at one of the two points.
+  void follow(const Eigen::VectorXd& step, const Eigen::VectorXd& change) {
+    const double square = step.squaredNorm();
+    if (square == 0.0) return;
+    Eigen::VectorXd unseen = (change - jacobian_ * step) / square;
+    for (Eigen::Index i = 0; i < unseen.size(); ++i)
+      if (jacobian_.row(i).isZero(0.0)) unseen[i] = 0.0;
+    jacobian_ += unseen * step.transpose();
+  }
+
   // Near the answer by central differences, once: from there on they hardly change.
   void linearise(bool last) {
-    if (central_ && (near_ || last)) return;
-    central_ = near_ || last;
+    const bool central = near_ || last;
+    if (central ? central_ : jacobian_.size() > 0) return;
+    central_ = central;
     fresh_ = true;
     jacobian_ = model_.scaled_jacobian(at_.x, central_ ? std::span<const double>{} : at_.predicted);
     columns_ = model_.whiten(jacobian_);
@@ -126,6 +148,11 @@ class ModeSearch {
       converged_ = fall_ < options_.min_fall || *share * largest < options_.tolerance;
       near_ = fall_ < kNear;
       fresh_ = false;
+      if (!near_) {
+        central_ = false;
+        follow(trial.u - at_.u, at_.residuals - trial.residuals);
+        columns_ = model_.whiten(jacobian_);
+      }
       at_ = std::move(trial);
       return true;
     }
@@ -151,6 +178,7 @@ class ModeSearch {
     mode.jacobian = std::move(jacobian_);
     mode.covariance = std::move(covariance_);
     mode.converged = converged_;
+    mode.central = central_;
     mode.unanswered = at_.unanswered;
     return mode;
   }
@@ -299,7 +327,7 @@ LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Para
                       mode);
 }
 
-PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
+PosteriorMode find_mode(const FittedModel& model, const ModeStart& start, const FitOptions& options,
                         const std::vector<bool>& fitted_rows, double must_reach) {
   return ModeSearch(model, options, fitted_rows, must_reach).run(start);
 }

@@ -22,7 +22,8 @@ namespace slipway::gap {
 //   J(u) = sum_i loss(w_i) + u^T u / 2,
 //
 // the negative logarithm of posterior density up to a constant. It is lowered by Gauss-Newton steps with
-// reweighted rows: linearise, step within the bounds, halve the step until the cost falls.
+// reweighted rows: linearise, step within the bounds, halve the step until the cost falls. On the way
+// derivatives follow the steps by rank-one updates [Broyden 1965]; near the mode they are taken anew.
 
 // What the mode is searched of: predictions, their derivatives, and the noise's whitening.
 class FittedModel {
@@ -57,7 +58,8 @@ struct PosteriorMode {
   Eigen::MatrixXd covariance;   // of (x - neutral) over the prior deviations
   double log_evidence = 0.0;    // of the drives, up to a constant common to all explanations
   bool converged = false;
-  int unanswered = 0;  // see unanswered_rows
+  bool central = false;  // `jacobian` has central differences
+  int unanswered = 0;    // see unanswered_rows
   // Parameters that a bound holds where the drives would move them beyond it, with their u. Not told with a
   // prior precision, whose directions mix what is re-tuned.
   std::vector<std::pair<Eigen::Index, double>> held;
@@ -77,10 +79,33 @@ LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Para
 // What a log evidence has to come to where anything will do.
 constexpr double kAnyEvidence = -std::numeric_limits<double>::infinity();
 
+// Where a search begins, and the derivatives that are known already at a point nearby: with a fit under
+// another noise those of that very point, with an effect more those of the fit without it. They save the
+// first derivatives, and all of them where the mode turns out to be near a point of central ones.
+struct ModeStart {
+  ModeStart(std::span<const double> start) : x(start) {}     // NOLINT(google-explicit-constructor)
+  ModeStart(const std::vector<double>& start) : x(start) {}  // NOLINT(google-explicit-constructor)
+  ModeStart(std::span<const double> start, std::span<const double> at, const Eigen::VectorXd& left,
+            const Eigen::MatrixXd& derivatives)
+      : x(start), known_at(at), residuals(&left), jacobian(&derivatives) {}
+  // A mode of the same model, perhaps under another noise.
+  static ModeStart at(const PosteriorMode& mode) {
+    ModeStart start(mode.x, mode.x, mode.residuals, mode.jacobian);
+    start.central = mode.central;
+    return start;
+  }
+
+  std::span<const double> x;
+  std::span<const double> known_at;  // empty: no derivatives are known
+  const Eigen::VectorXd* residuals = nullptr;
+  const Eigen::MatrixXd* jacobian = nullptr;
+  bool central = false;
+};
+
 // The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all). Where the cost falls too
 // slowly for the log evidence to come to `must_reach` in the iterations that are left, it is a point on the
 // way.
-PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
+PosteriorMode find_mode(const FittedModel& model, const ModeStart& start, const FitOptions& options,
                         const std::vector<bool>& fitted_rows = {}, double must_reach = kAnyEvidence);
 
 // The parts of it.

@@ -162,11 +162,11 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   systematic << problem.columns, left, prepared.discrepancy.values;
   scatter_around(found, *prepared.model, *prepared.noise);
   prepared.noise->estimate(problem.residuals, systematic, threads);
-  const auto fitted = [&](std::span<const double> start) {
+  const auto fitted = [&](const ModeStart& start) {
     return fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start, options.fit,
                            threads);
   };
-  FittedExplanation null = fitted(prepared.null->x);
+  FittedExplanation null = fitted(ModeStart::at(*prepared.null));
   if (!campaign.reference) keep_better(null, fitted(prepared.null->hypothesis.neutral()));
   prepared.null = std::move(null);
   prepared.model->start_from(prepared.null->hypothesis.state(prepared.null->x), threads);

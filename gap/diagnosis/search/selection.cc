@@ -9,38 +9,6 @@
 namespace slipway::gap {
 namespace {
 
-std::size_t simplest_of_the_best(std::span<const Candidate> candidates, const SelectionOptions& options) {
-  std::size_t best = 0;
-  if (candidates.front().probability >= options.certain) return best;
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const Candidate &held = candidates[best], &other = candidates[i];
-    const auto in_held = [&](const std::string& effect) {
-      return std::find(held.effects.begin(), held.effects.end(), effect) != held.effects.end();
-    };
-    if (!other.effects.empty() && other.effects.size() < held.effects.size() &&
-        other.with_unknown == held.with_unknown &&
-        std::all_of(other.effects.begin(), other.effects.end(), in_held) &&
-        other.probability > options.simpler_share * candidates.front().probability)
-      best = i;
-  }
-  return best;
-}
-
-// Whether explanations without an effect of the library are more probable in all than those with one of
-// these.
-bool rather_without(const std::vector<std::string>& effects, std::span<const Candidate> candidates) {
-  double with = 0.0, without = 0.0;
-  for (const Candidate& c : candidates) {
-    const std::vector<std::string> own = library_effects_of(c);
-    const bool has_one = std::any_of(own.begin(), own.end(), [&](const std::string& effect) {
-      return std::find(effects.begin(), effects.end(), effect) != effects.end();
-    });
-    if (own.empty()) without += c.probability;
-    if (has_one) with += c.probability;
-  }
-  return without > with;
-}
-
 // The explanations that resamples choose among, most probable first, with their linearised evidence.
 struct Running {
   std::vector<Candidate> candidates;
@@ -79,34 +47,6 @@ Running running_of(const ExplanationSearch& search, const PreparedCampaign& prep
 
 }  // namespace
 
-std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options) {
-  double unknown = 0.0;
-  for (const Candidate& c : candidates) unknown += c.unknown() ? c.probability : 0.0;
-  const auto first_where = [&](const auto& holds) {
-    return static_cast<std::size_t>(std::find_if(candidates.begin(), candidates.end(), holds) -
-                                    candidates.begin());
-  };
-  if (unknown > options.unknown_majority) return first_where([](const Candidate& c) { return c.unknown(); });
-  const std::size_t best = simplest_of_the_best(candidates, options);
-  const std::vector<std::string> effects = library_effects_of(candidates[best]);
-  if (effects.empty() || !rather_without(effects, candidates)) return best;
-  return first_where([](const Candidate& c) { return library_effects_of(c).empty(); });
-}
-
-std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double alike_share) {
-  const Candidate& first = search.candidates[chosen];
-  if (!first.outside || first.with_unknown) return chosen;
-  std::size_t best = chosen;
-  for (std::size_t c = 0; c < search.candidates.size(); ++c) {
-    const Candidate& other = search.candidates[c];
-    if (other.outside && !other.with_unknown && other.probability >= alike_share * first.probability &&
-        library_effects_of(other) == library_effects_of(first) &&
-        search.fits[other.fit].log_evidence > search.fits[search.candidates[best].fit].log_evidence)
-      best = c;
-  }
-  return best;
-}
-
 GroupedEvidence::GroupedEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
                                  std::span<const std::size_t> group_of_row, std::size_t group_count)
     : square_(group_count, 0.0),
@@ -139,28 +79,12 @@ double GroupedEvidence::counted(std::span<const int> times) const {
          factor.matrixLLT().diagonal().array().log().sum();
 }
 
-std::size_t chosen_of_resample(std::vector<Candidate> candidates, const EvidenceOptions& evidence,
-                               const SelectionOptions& selection) {
-  weigh(candidates, evidence);
-  std::vector<std::size_t> order(candidates.size());
-  for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t z) {
-    return candidates[a].probability > candidates[z].probability;
-  });
-  std::vector<Candidate> sorted;
-  sorted.reserve(order.size());
-  for (const std::size_t c : order) sorted.push_back(candidates[c]);
-  return order[chosen_among(sorted, selection)];
-}
-
-SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
-                                      const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                      const DriveResampling& drives) {
+std::vector<double> resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
+                                       const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                       const DriveResampling& drives) {
   const WindowModel& model = *prepared.model;
   const Running running = running_of(search, prepared, campaign, options, drives);
-  SelectionBootstrap answer;
-  answer.chosen.resize(drives.resamples.size());
-  answer.share.assign(search.candidates.size(), 0.0);
+  std::vector<std::size_t> first(drives.resamples.size(), 0);
   parallel_for(drives.resamples.size(), options.search.threads, [&](std::size_t b) {
     if (model.cancelled()) return;
     std::vector<int> times(drives.group_count, 0);
@@ -168,11 +92,13 @@ SelectionBootstrap resample_selection(const ExplanationSearch& search, const Pre
     std::vector<Candidate> drawn = running.candidates;
     for (std::size_t c = 0; c < drawn.size(); ++c)
       drawn[c].log_evidence += running.evidence[c].counted(times) - running.whole[c];
-    answer.chosen[b] = chosen_of_resample(std::move(drawn), options.evidence, options.selection);
+    weigh(drawn, options.evidence);
+    const auto less = [](const Candidate& a, const Candidate& z) { return a.probability < z.probability; };
+    first[b] = static_cast<std::size_t>(std::max_element(drawn.begin(), drawn.end(), less) - drawn.begin());
   });
-  for (const std::size_t chosen : answer.chosen)
-    answer.share[chosen] += 1.0 / static_cast<double>(drives.resamples.size());
-  return answer;
+  std::vector<double> share(search.candidates.size(), 0.0);
+  for (const std::size_t c : first) share[c] += 1.0 / static_cast<double>(drives.resamples.size());
+  return share;
 }
 
 }  // namespace slipway::gap

@@ -149,7 +149,8 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
     moved[which] = variant_at(effect, there);
     const double must_reach = fit.log_evidence + patch_options.min_rise;
     FittedExplanation trial =
-        fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads, {}, must_reach);
+        fit_explanation(Hypothesis(campaign, moved), model, noise,
+                        {fit.x, fit.x, fit.residuals, fit.jacobian}, quick, threads, {}, must_reach);
     if (trial.log_evidence <= must_reach) return false;
     fit = std::move(trial);
     return true;

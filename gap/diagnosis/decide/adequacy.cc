@@ -1,0 +1,34 @@
+#include "gap/diagnosis/decide/adequacy.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+namespace slipway::gap {
+
+Adequacy adequacy_of(const SearchRecord& record, std::size_t fit) {
+  Adequacy adequacy;
+  // What a reference taught is believed as it is: its own drives told of the scatter and of the parameters.
+  if (record.with_reference) return adequacy;
+  double square = 0.0;
+  int terms = 0;
+  for (const SearchRecord::Shift& shift : record.fits[fit].shifts) {
+    if (!shift.has_far_ends) continue;
+    square += shift.deviations * shift.deviations;
+    ++terms;
+    if (std::abs(shift.deviations) > std::abs(adequacy.deviations)) {
+      adequacy.deviations = shift.deviations;
+      adequacy.furthest = shift.parameter;
+    }
+  }
+  for (const double above : record.scatter_deviations) {
+    const double deviations = std::max(0.0, above);
+    square += deviations * deviations;
+    ++terms;
+    if (deviations > std::abs(adequacy.deviations)) adequacy = {1.0, "", deviations};
+  }
+  if (terms > 0) adequacy.conflict_p = boost::math::gamma_q(0.5 * terms, 0.5 * square);
+  return adequacy;
+}
+
+}  // namespace slipway::gap
