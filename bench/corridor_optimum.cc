@@ -38,8 +38,7 @@ constexpr double kAllowed = 1.02;
 std::vector<std::uint32_t> blocks_in_reach(const PlanProblem& problem, const dem::GridGeometry& g,
                                            double length_m) {
   const double half_diagonal = 0.5 * kBlockCells * std::hypot(g.cell_x_m, g.cell_y_m);
-  const auto blocks =
-      static_cast<std::uint32_t>(block_columns(g) * ((g.rows + kBlockCells - 1) / kBlockCells));
+  const auto blocks = static_cast<std::uint32_t>(block_columns(g) * block_rows(g));
   std::vector<std::uint32_t> held;
   for (std::uint32_t block = 0; block < blocks; ++block) {
     const dem::CellWindow w = block_window(g, block);

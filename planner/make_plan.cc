@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -180,11 +181,8 @@ class Planning {
   }
 
   bool is_long() const {
-    const std::vector<Waypoint> places = problem_.places();
-    double length = 0.0;
-    for (std::size_t i = 1; i < places.size(); ++i)
-      length += std::hypot(places[i].x_m - places[i - 1].x_m, places[i].y_m - places[i - 1].y_m);
-    return length >= kLongDrive_m;
+    const std::vector<double> legs = problem_.leg_lengths_m();
+    return std::accumulate(legs.begin(), legs.end(), 0.0) >= kLongDrive_m;
   }
 
   // Drives the best-ranked routes in the dynamic simulation. A route that it refutes is judged and ranked

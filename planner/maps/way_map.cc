@@ -60,7 +60,7 @@ class Ways {
   std::optional<Error> fault_of_place(const char* pointer) const {
     const long long cell = map_->index_at(place_.x_m, place_.y_m);
     const Passage passage = cell < 0 ? Passage::kNoData : map_->cell(static_cast<std::size_t>(cell)).passage;
-    if (passage == Passage::kFree || passage == Passage::kNearKeepOut) return std::nullopt;
+    if (is_open(passage)) return std::nullopt;
     return Error{ErrorCode::kInvalidRequest,
                  "No way leads to or from the place.",
                  {{pointer, fmt::format("the rover may not stand at ({}, {}): {}", place_.x_m, place_.y_m,
@@ -114,9 +114,7 @@ class Ways {
   }
 
   std::size_t cell_before(std::size_t cell, int step) const {
-    const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
-    return static_cast<std::size_t>(static_cast<long long>(cell) +
-                                    static_cast<long long>(s.up) * geometry().columns - s.right);
+    return static_cast<std::size_t>(cell_beyond(*map_, map_->place_of(cell), opposite(step)));
   }
 
   UsedUp metre_in(std::size_t cell, int step) const {

@@ -18,6 +18,14 @@ std::vector<Waypoint> PlanProblem::places() const {
   return all;
 }
 
+std::vector<double> PlanProblem::leg_lengths_m() const {
+  const std::vector<Waypoint> all = places();
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    lengths.push_back(std::hypot(all[i].x_m - all[i - 1].x_m, all[i].y_m - all[i - 1].y_m));
+  return lengths;
+}
+
 double PlanProblem::max_tilt_rad() const {
   return std::min(limits.max_tilt_rad, rover->max_tilt_rad);
 }

@@ -62,6 +62,7 @@ struct PlanProblem {
 
   // Start, waypoints in their order, goal.
   std::vector<Waypoint> places() const;
+  std::vector<double> leg_lengths_m() const;  // between these
   // The lower of the request's and the rover's limits.
   double max_tilt_rad() const;
 };

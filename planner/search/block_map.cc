@@ -11,7 +11,8 @@ namespace slipway::planner {
 namespace {
 
 constexpr long long kStripeBlocks = 16;  // rows of blocks that are read at once
-enum Side { kNorth, kSouth, kWest, kEast };
+// Counter-clockwise, as four steps of GridSearch are: step 4 k leads across side k.
+enum Side { kEast, kNorth, kWest, kSouth };
 constexpr int kBetweenSamples = 4;
 // A node that no cell of the sample is in, or of whose sample no cell can be driven in a direction, costs so
 // many times what level ground does.
@@ -19,20 +20,13 @@ constexpr float kUnknownFactor = 3.0F, kClosedFactor = 30.0F;
 // What a share of closed ground adds: ways around it.
 constexpr float kDetour = 1.0F;
 
-struct Towards {
-  int side, step, rows, columns;
-};
-// The four sides with their steps of GridSearch.
-constexpr std::array<Towards, 4> kSides{
-    {{kEast, 0, 0, 1}, {kNorth, 4, -1, 0}, {kWest, 8, 0, -1}, {kSouth, 12, 1, 0}}};
-
 }  // namespace
 
 BlockMap::BlockMap(const PlanProblem& problem, const KeepOut& keep_out, Progress& progress)
     : geometry_(finest_geometry(problem.terrain->geometry())),
       problem_(problem),
       keep_out_(keep_out),
-      block_rows_((geometry_.rows + kBlockCells - 1) / kBlockCells),
+      block_rows_(block_rows(geometry_)),
       block_columns_(block_columns(geometry_)),
       blocks_(static_cast<std::size_t>(block_rows_ * block_columns_)),
       sizes_(blocks_.size()) {
@@ -52,13 +46,8 @@ BlockMap::BlockMap(const PlanProblem& problem, const KeepOut& keep_out, Progress
 
 void BlockMap::read_stripe(const PlanProblem& problem, const GroundJudge& judge, long long first_block_row,
                            long long block_rows) {
-  const dem::GridGeometry& terrain = problem.terrain->geometry();
-  const auto step = static_cast<int>(std::lround(geometry_.cell_y_m / terrain.cell_y_m));
-  const int row = static_cast<int>(first_block_row) * kBlockCells * step;
-  const int first = std::max(0, row - judge.margin());
-  const long long last = std::min<long long>(
-      terrain.rows, row + block_rows * kBlockCells * step + static_cast<long long>(judge.margin()));
-  const auto part = problem.terrain->part({first, 0, static_cast<int>(last - first), terrain.columns});
+  const dem::CellWindow read = judge.rows_of_terrain(first_block_row * kBlockCells, block_rows * kBlockCells);
+  const auto part = problem.terrain->part(read);
   if (!part) {
     damaged_ = true;
     return;
@@ -69,7 +58,7 @@ void BlockMap::read_stripe(const PlanProblem& problem, const GroundJudge& judge,
        ++b) {
     Block& block = blocks_[static_cast<std::size_t>(b)];
     const dem::CellWindow window = block_window(geometry_, static_cast<std::uint32_t>(b));
-    judge.cells(*part, {first, 0}, window, cells.data(), kBlockCells);
+    judge.cells(*part, {read.row, 0}, window, cells.data(), kBlockCells);
     block.parts =
         static_cast<std::uint8_t>(label(cells.data(), window, parts, sizes_[static_cast<std::size_t>(b)]));
     for (int k = 0; k < kBlockCells; ++k) {
@@ -95,8 +84,7 @@ int BlockMap::label(const GroundCell* cells, const dem::CellWindow& window, Part
   for (int row = 0; row < window.rows; ++row) {
     for (int column = 0; column < window.columns; ++column) {
       const int at = row * kBlockCells + column;
-      const Passage passage = cells[at].passage;
-      if (passage != Passage::kFree && passage != Passage::kNearKeepOut) continue;
+      if (!is_open(cells[at].passage)) continue;
       parts[at] = kOpen;
       ++open;
     }
@@ -149,33 +137,25 @@ void BlockMap::number_nodes() {
 void BlockMap::touching(std::size_t node, int side, std::vector<std::uint32_t>& to) const {
   to.clear();
   const std::uint32_t block = block_of_[node];
-  const Towards& towards =
-      *std::find_if(kSides.begin(), kSides.end(), [&](const Towards& t) { return t.side == side; });
-  const long long row = block / block_columns_ + towards.rows;
-  const long long column = block % block_columns_ + towards.columns;
+  const GridStep& across = kGridDirections[static_cast<std::size_t>(4 * side)];
+  const long long row = block / block_columns_ - across.up;
+  const long long column = block % block_columns_ + across.right;
   if (row < 0 || column < 0 || row >= block_rows_ || column >= block_columns_) return;
   const auto beside = static_cast<std::uint32_t>(row * block_columns_ + column);
-  constexpr std::array<int, 4> kOther{kSouth, kNorth, kEast, kWest};
   const auto& ours = blocks_[block].edges[static_cast<std::size_t>(side)];
-  const auto& theirs =
-      blocks_[beside].edges[static_cast<std::size_t>(kOther[static_cast<std::size_t>(side)])];
+  const auto& theirs = blocks_[beside].edges[static_cast<std::size_t>((side + 2) % 4)];
   const std::size_t part = node - first_node_[block] + 1;
   std::uint8_t last = 0;
-  for (int k = 0; k < kBlockCells; ++k) {
-    if (ours[static_cast<std::size_t>(k)] != part) continue;
-    {
-      const std::uint8_t other = theirs[static_cast<std::size_t>(k)];
-      if (other == 0 || other == last) continue;
-      last = other;
-      const std::uint32_t found = node_of(beside, other);
-      if (std::find(to.begin(), to.end(), found) == to.end()) to.push_back(found);
-    }
+  for (std::size_t k = 0; k < kBlockCells; ++k) {
+    if (ours[k] != part || theirs[k] == 0 || theirs[k] == last) continue;
+    last = theirs[k];
+    const std::uint32_t found = node_of(beside, last);
+    if (std::find(to.begin(), to.end(), found) == to.end()) to.push_back(found);
   }
 }
 
 void BlockMap::join(std::size_t threads, const Progress& progress) {
   // First over the sides, then what follows from two and from three of these: the steps of GridSearch.
-  std::vector<std::array<std::vector<std::uint32_t>, 4>> rows_of_sides;
   std::vector<std::vector<Edge>> found(static_cast<std::size_t>(block_rows_));
   std::vector<std::uint32_t> counts(nodes() + 1, 0);
   parallel_for(static_cast<std::size_t>(block_rows_), threads, [&](std::size_t row) {
@@ -191,20 +171,19 @@ void BlockMap::join(std::size_t threads, const Progress& progress) {
           if (found[row][k].to == target) return;
         found[row].push_back({target, static_cast<std::uint8_t>(step)});
       };
-      for (const Towards& a : kSides) {
-        touching(node, a.side, first);
-        for (const std::uint32_t p : first) add(p, a.step);
+      for (int a = 0; a < 4; ++a) {
+        touching(node, a, first);
+        for (const std::uint32_t p : first) add(p, 4 * a);
         for (const std::uint32_t p : first) {
-          for (const Towards& b : kSides) {
+          for (int b = 0; b < 4; ++b) {
             // Turned by a right angle: the diagonal between both.
-            const int turn = (b.step - a.step + kGridSteps) % kGridSteps;
-            if (turn != 4 && turn != 12) continue;
-            const int diagonal = (a.step + (turn == 4 ? 2 : 14)) % kGridSteps;
-            touching(p, b.side, second);
+            const int turn = (b - a + 4) % 4, aside = turn == 1 ? 1 : kGridSteps - 1;
+            if (turn % 2 == 0) continue;
+            touching(p, b, second);
             for (const std::uint32_t q : second) {
-              add(q, diagonal);
-              touching(q, a.side, third);
-              for (const std::uint32_t r : third) add(r, (a.step + (turn == 4 ? 1 : 15)) % kGridSteps);
+              add(q, (4 * a + 2 * aside) % kGridSteps);
+              touching(q, a, third);
+              for (const std::uint32_t r : third) add(r, (4 * a + aside) % kGridSteps);
             }
           }
         }
@@ -232,7 +211,7 @@ std::optional<std::uint32_t> BlockMap::node_at(double x_m, double y_m) const {
   const long long cell = grid_index(geometry_, x_m, y_m);
   if (cell < 0) return std::nullopt;
   const long long row = cell / geometry_.columns, column = cell % geometry_.columns;
-  const auto block = static_cast<std::uint32_t>(row / kBlockCells * block_columns_ + column / kBlockCells);
+  const std::uint32_t block = block_at(geometry_, row, column);
   // The parts of a block are not kept: they are found anew, in the same order.
   const GroundJudge judge(problem_, keep_out_, geometry_);
   const dem::CellWindow window = block_window(geometry_, block);
@@ -248,18 +227,12 @@ std::optional<std::uint32_t> BlockMap::node_at(double x_m, double y_m) const {
 }
 
 std::array<float, 8> BlockMap::costs(std::size_t node, const MotionCost& cost) const {
-  static const std::array<Eigen::Vector2d, 8> direction = [] {
-    std::array<Eigen::Vector2d, 8> all;
-    for (int k = 0; k < 8; ++k)
-      all[static_cast<std::size_t>(k)] = {std::cos(GridSearch::heading_rad(2 * k)),
-                                          std::sin(GridSearch::heading_rad(2 * k))};
-    return all;
-  }();
   const Block& block = blocks_[block_of_[node]];
   const std::size_t part = node - first_node_[block_of_[node]] + 1;
   const float closed = 1.0F - static_cast<float>(cells_[node]) / (kBlockCells * kBlockCells);
   std::array<float, 8> all{};
   for (std::size_t k = 0; k < 8; ++k) {
+    const Eigen::Vector2d& driven_in = GridSearch::direction(static_cast<int>(2 * k));
     float sum = 0.0F;
     int driven = 0, sampled = 0;
     std::uint8_t soil = kUnknownSoil;
@@ -268,13 +241,13 @@ std::array<float, 8> BlockMap::costs(std::size_t node, const MotionCost& cost) c
       ++sampled;
       soil = sample.soil;
       const auto metre = static_cast<float>(cost.per_metre_on(
-          sample.soil, {sample.gradient_x, sample.gradient_y}, direction[k].x(), direction[k].y()));
+          sample.soil, {sample.gradient_x, sample.gradient_y}, driven_in.x(), driven_in.y()));
       if (!std::isfinite(metre)) continue;
       sum += metre;
       ++driven;
     }
     const auto level = static_cast<float>(
-        cost.per_metre_on(sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, direction[k].x(), direction[k].y()));
+        cost.per_metre_on(sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, driven_in.x(), driven_in.y()));
     float metre = level * (sampled > 0 ? kClosedFactor : kUnknownFactor);
     if (driven > 0) {
       const float held = 1.0F - static_cast<float>(driven) / static_cast<float>(sampled);

@@ -61,8 +61,7 @@ class BlockMap {
   };
   struct Block {
     std::array<Sample, kSamples> samples;
-    // The parts of the cells at its edges: north from the west, south from the west, west from the north,
-    // east from the north.
+    // The parts of the cells at its edges, east, north, west and south, each from the west or the north.
     std::array<std::array<std::uint8_t, kBlockCells>, 4> edges{};
     std::uint8_t parts = 0;
   };

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <span>
-#include <tuple>
 
 #include "core/angle.h"
+#include "planner/search/graph_search.h"
 #include "planner/search/grid_search.h"
 
 namespace slipway::planner {
@@ -50,12 +49,9 @@ struct Crossing {
   double breach = 0.0;
 };
 
-struct Reached {
-  double breach, breached_m;
-  std::size_t cell;
-  bool operator>(const Reached& other) const {
-    return std::tie(breach, breached_m, cell) > std::tie(other.breach, other.breached_m, other.cell);
-  }
+struct Breached {
+  double worst = 0.0, length_m = 0.0;
+  auto operator<=>(const Breached&) const = default;
 };
 
 // The cells from one place to another on the way whose worst breach is least; of those, one with little
@@ -65,37 +61,31 @@ std::vector<Crossing> least_breach(const PlanProblem& problem, const MotionCost&
   const TraverseMap& map = cost.map();
   const long long start = map.index_at(from.x_m, from.y_m), goal = map.index_at(to.x_m, to.y_m);
   if (start < 0 || goal < 0) return {};
-  const long long rows = map.geometry().rows, columns = map.geometry().columns;
   const auto infinity = std::numeric_limits<double>::infinity();
-  std::vector<Reached> best(map.cells(), {infinity, infinity, 0});
+  std::vector<Breached> best(map.cells(), {infinity, infinity});
   std::vector<Crossing> crossing(map.cells());
   std::vector<std::size_t> before(map.cells(), map.cells());
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
-  open.push(best[static_cast<std::size_t>(start)] = {0.0, 0.0, static_cast<std::size_t>(start)});
-  while (!open.empty() && open.top().cell != static_cast<std::size_t>(goal)) {
-    const Reached here = open.top();
-    open.pop();
-    if (here > best[here.cell]) continue;
-    const auto row = static_cast<long long>(here.cell) / columns;
-    const auto column = static_cast<long long>(here.cell) % columns;
+  const auto leave = [&](std::uint32_t here, const auto& reach) {
+    const dem::Cell at = map.place_of(here);
     for (int k = 0; k < 8; ++k) {
       const double heading = k * rad_from_deg(45.0);
-      const long long next_row = row - std::lround(std::sin(heading));
-      const long long next_column = column + std::lround(std::cos(heading));
-      if (next_row < 0 || next_column < 0 || next_row >= rows || next_column >= columns) continue;
-      const auto next = static_cast<std::size_t>(next_row * columns + next_column);
+      const long long beside = cell_beyond(map, at, 2 * k);
+      if (beside < 0) continue;
+      const auto next = static_cast<std::size_t>(beside);
       Crossing step{next, breach_of(problem, cost, next, heading)};
-      const Crossing leaving{here.cell, breach_of(problem, cost, here.cell, heading)};
+      const Crossing leaving{here, breach_of(problem, cost, here, heading)};
       if (leaving.breach > step.breach) step = leaving;
-      Reached way{std::max(here.breach, step.breach), here.breached_m, next};
-      way.breached_m += (step.breach > 0.0 ? 1.0 : 1e-3) * (k % 2 == 0 ? 1.0 : std::sqrt(2.0)) * map.cell_m();
-      if (!(best[next] > way)) continue;
-      best[next] = way;
+      Breached way{std::max(best[here].worst, step.breach), best[here].length_m};
+      way.length_m += (step.breach > 0.0 ? 1.0 : 1e-3) * (k % 2 == 0 ? 1.0 : std::sqrt(2.0)) * map.cell_m();
+      if (!(way < best[next])) continue;
       crossing[next] = step;
-      before[next] = here.cell;
-      open.push(way);
+      before[next] = here;
+      reach(static_cast<std::uint32_t>(next), way);
     }
-  }
+  };
+  search_best_first(
+      best, static_cast<std::uint32_t>(start), [](std::uint32_t, const Breached& way) { return way; },
+      [&](std::uint32_t cell, const Breached&) { return cell == goal; }, leave);
   std::vector<Crossing> way;
   for (auto at = static_cast<std::size_t>(goal); at < map.cells(); at = before[at])
     way.push_back(crossing[at]);

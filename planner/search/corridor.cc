@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
+
+#include "planner/search/corridor_cells.h"
+#include "planner/search/graph_search.h"
 
 namespace slipway::planner {
 namespace {
@@ -11,18 +13,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of the cheapest way: over dearer nodes no way is looked for.
 constexpr float kWorst = 1.5F;
-constexpr std::size_t kBetweenAsking = 1U << 13U;
-
 // Sums are in floats: a little above the bound none is left out that rounding put there.
 constexpr float kRounding = 1.0001F;
-
-struct Reached {
-  float whole, cost;  // of a way through the node at the least; so far
-  std::uint32_t node;
-  bool operator>(const Reached& other) const {
-    return whole > other.whole || (whole == other.whole && node > other.node);
-  }
-};
 
 // In a step's direction; between two of the eight their mean.
 float per_metre(const std::array<float, 8>& costs, int step) {
@@ -34,12 +26,13 @@ float per_metre(const std::array<float, 8>& costs, int step) {
 
 Corridor::Corridor(const BlockMap& blocks, NodeCosts& costs, const std::vector<float>& penalty,
                    std::uint32_t from, std::uint32_t to, const std::function<bool()>& cancelled)
-    : blocks_(blocks), costs_(costs), penalty_(penalty), cancelled_(cancelled) {
+    : blocks_(blocks),
+      costs_(costs),
+      penalty_(penalty),
+      half_length_m_(GridSearch::half_lengths_m(blocks.geometry())),
+      cancelled_(cancelled) {
   const dem::GridGeometry& g = blocks.geometry();
-  for (std::size_t k = 0; k < kGridSteps; ++k)
-    half_length_m_[k] = 0.5F * kBlockCells *
-                        static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
-                                                      kGridDirections[k].up * g.cell_y_m));
+  for (float& half : half_length_m_) half *= kBlockCells;
   // First with the straight line at the least cost of a metre as what is left, then with what is left indeed.
   const long long columns = block_columns(g), start = blocks.block_of(from);
   const std::vector<float> to_go = spread(to, from, true, [&](std::uint32_t node) {
@@ -62,72 +55,38 @@ Corridor::Corridor(const BlockMap& blocks, NodeCosts& costs, const std::vector<f
 
 float Corridor::cost_of(std::uint32_t node, const BlockMap::Edge& edge, int driven) const {
   const float here = per_metre(costs_.of(node), driven), there = per_metre(costs_.of(edge.to), driven);
-  float metre = here + there;
-  if (!penalty_.empty())
-    metre += here * penalty_[blocks_.block_of(node)] + there * penalty_[blocks_.block_of(edge.to)];
-  return half_length_m_[edge.step] * metre;
+  const float dearer = here * penalty_[blocks_.block_of(node)] + there * penalty_[blocks_.block_of(edge.to)];
+  return half_length_m_[edge.step] * (here + there + dearer);
 }
 
 template <class AtLeast>
 std::vector<float> Corridor::spread(std::uint32_t origin, std::uint32_t end, bool to_go,
                                     const AtLeast& at_least) const {
   std::vector<float> cost(blocks_.nodes(), kInfinity);
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
-  cost[origin] = 0.0F;
-  open.push({at_least(origin), 0.0F, origin});
-  std::size_t looked_at = 0;
-  while (!open.empty()) {
-    const Reached here = open.top();
-    open.pop();
-    if (here.cost > cost[here.node]) continue;
-    if (here.whole > kRounding * kWorst * cost[end]) break;
-    if (++looked_at % kBetweenAsking == 0 && cancelled_()) break;
-    for (const BlockMap::Edge* edge = blocks_.begin(here.node); edge != blocks_.end(here.node); ++edge) {
-      const int driven = to_go ? (edge->step + kGridSteps / 2) % kGridSteps : edge->step;
-      const float sum = here.cost + cost_of(here.node, *edge, driven);
-      if (!(sum < cost[edge->to])) continue;
-      cost[edge->to] = sum;
-      open.push({sum + at_least(edge->to), sum, edge->to});
-    }
-  }
+  search_best_first(
+      cost, origin, [&](std::uint32_t node, float sum) { return sum + at_least(node); },
+      [&](std::uint32_t, float whole) { return whole > kRounding * kWorst * cost[end]; },
+      [&](std::uint32_t node, const auto& reach) {
+        for (const BlockMap::Edge* edge = blocks_.begin(node); edge != blocks_.end(node); ++edge)
+          reach(edge->to, cost[node] + cost_of(node, *edge, to_go ? opposite(edge->step) : edge->step));
+      },
+      cancelled_);
   return cost;
 }
 
 std::vector<std::uint32_t> Corridor::blocks(std::size_t least) const {
-  const dem::GridGeometry& g = blocks_.geometry();
-  const long long columns = block_columns(g);
-  const auto rows = static_cast<long long>(blocks_.blocks()) / columns;
   std::vector<std::uint32_t> held;
-  for (std::size_t k = 0; k < std::min(least, order_.size()); ++k) {
-    const long long block = blocks_.block_of(order_[k]);
-    for (long long row = std::max(0LL, block / columns - 1); row <= std::min(rows - 1, block / columns + 1);
-         ++row)
-      for (long long column = std::max(0LL, block % columns - 1);
-           column <= std::min(columns - 1, block % columns + 1); ++column)
-        held.push_back(static_cast<std::uint32_t>(row * columns + column));
-  }
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
-  return held;
+  for (std::size_t k = 0; k < std::min(least, order_.size()); ++k)
+    held.push_back(blocks_.block_of(order_[k]));
+  return blocks_around(blocks_.geometry(), held, 1);
 }
 
 Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {
-  const auto reached_from = [&](std::uint32_t origin) {
-    std::vector<std::uint8_t> reached(blocks.nodes(), 0);
-    std::vector<std::uint32_t> open{origin};
-    reached[origin] = 1;
-    while (!open.empty()) {
-      const std::uint32_t node = open.back();
-      open.pop_back();
-      for (const BlockMap::Edge* edge = blocks.begin(node); edge != blocks.end(node); ++edge) {
-        if (reached[edge->to] != 0) continue;
-        reached[edge->to] = 1;
-        open.push_back(edge->to);
-      }
-    }
-    return reached;
+  const auto leave = [&](std::size_t node, const auto& reach) {
+    for (const BlockMap::Edge* edge = blocks.begin(node); edge != blocks.end(node); ++edge) reach(edge->to);
   };
-  const std::vector<std::uint8_t> here = reached_from(from), there = reached_from(to);
+  const std::vector<std::uint8_t> here = reachable(blocks.nodes(), from, leave),
+                                  there = reachable(blocks.nodes(), to, leave);
   const dem::GridGeometry& g = blocks.geometry();
   Reach reach;
   reach.leads = here[to] != 0;
@@ -137,15 +96,14 @@ Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {
   reach.area_m2 = static_cast<double>(cells) * g.cell_x_m * g.cell_y_m;
 
   // The nearest block of the others, by rings of blocks from all of ours at once.
-  const long long columns = block_columns(g);
-  const auto rows = static_cast<long long>(blocks.blocks()) / columns;
-  std::vector<std::uint32_t> source(blocks.blocks(), std::numeric_limits<std::uint32_t>::max());
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> source(blocks.blocks(), kNone);
   std::vector<std::uint8_t> is_there(blocks.blocks(), 0);
   std::vector<std::uint32_t> ring, next;
   for (std::size_t node = 0; node < here.size(); ++node) {
     const std::uint32_t block = blocks.block_of(node);
     if (there[node] != 0) is_there[block] = 1;
-    if (here[node] == 0 || source[block] != std::numeric_limits<std::uint32_t>::max()) continue;
+    if (here[node] == 0 || source[block] != kNone) continue;
     source[block] = block;
     ring.push_back(block);
   }
@@ -158,16 +116,11 @@ Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {
         reach.gap_m = (reach.here - reach.there).norm();
         return reach;
       }
-      for (long long dr = -1; dr <= 1; ++dr) {
-        for (long long dc = -1; dc <= 1; ++dc) {
-          const long long row = block / columns + dr, column = block % columns + dc;
-          if (row < 0 || column < 0 || row >= rows || column >= columns) continue;
-          const auto beside = static_cast<std::size_t>(row * columns + column);
-          if (source[beside] != std::numeric_limits<std::uint32_t>::max()) continue;
-          source[beside] = source[block];
-          next.push_back(static_cast<std::uint32_t>(beside));
-        }
-      }
+      for_blocks_about(g, block, 1, [&](std::uint32_t beside) {
+        if (source[beside] != kNone) return;
+        source[beside] = source[block];
+        next.push_back(beside);
+      });
     }
     ring.swap(next);
   }

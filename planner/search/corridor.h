@@ -42,8 +42,7 @@ class NodeCosts {
 // another.
 class Corridor {
  public:
-  // `penalty`: each metre in a block costs (1 + penalty[block]) times as much;
-  // empty: none does.
+  // `penalty`: each metre in a block costs (1 + penalty[block]) times as much.
   Corridor(const BlockMap& blocks, NodeCosts& costs, const std::vector<float>& penalty, std::uint32_t from,
            std::uint32_t to, const std::function<bool()>& cancelled);
 
@@ -67,7 +66,7 @@ class Corridor {
   const BlockMap& blocks_;
   NodeCosts& costs_;
   const std::vector<float>& penalty_;
-  std::array<float, kGridSteps> half_length_m_{};  // of a step
+  std::array<float, kGridSteps> half_length_m_;  // of a step
   const std::function<bool()>& cancelled_;
   bool leads_ = false;
   std::vector<std::uint32_t> order_;  // nodes, those of the cheapest ways first

@@ -24,37 +24,35 @@ void charge_beside(const TraverseMap& map, const dem::Cell& at, float charge, st
 
 }  // namespace
 
+std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g, const std::vector<std::uint32_t>& blocks,
+                                         int reach) {
+  std::vector<std::uint32_t> around;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    if (k == 0 || blocks[k] != blocks[k - 1])
+      for_blocks_about(g, blocks[k], reach, [&](std::uint32_t block) { around.push_back(block); });
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
 std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g,
                                          const std::vector<Eigen::Vector2d>& places, int reach) {
-  const long long columns = block_columns(g), rows = (g.rows + kBlockCells - 1) / kBlockCells;
   std::vector<std::uint32_t> blocks;
-  long long last = -1;
-  for (const Eigen::Vector2d& p : places) {
-    const long long cell = grid_index(g, p.x(), p.y());
-    if (cell < 0) continue;
-    const long long row = cell / g.columns / kBlockCells, column = cell % g.columns / kBlockCells;
-    if (row * columns + column == last) continue;
-    last = row * columns + column;
-    for (long long r = std::max(0LL, row - reach); r <= std::min(rows - 1, row + reach); ++r)
-      for (long long c = std::max(0LL, column - reach); c <= std::min(columns - 1, column + reach); ++c)
-        blocks.push_back(static_cast<std::uint32_t>(r * columns + c));
-  }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  return blocks;
+  for (const Eigen::Vector2d& p : places)
+    if (const long long cell = grid_index(g, p.x(), p.y()); cell >= 0)
+      blocks.push_back(block_at(g, cell / g.columns, cell % g.columns));
+  return blocks_around(g, blocks, reach);
 }
 
 bool comes_to_edge(const BlockMap& blocks, const TraverseMap& map, const std::vector<std::size_t>& way) {
   const dem::GridGeometry& g = map.geometry();
-  const long long columns = block_columns(g);
   for (const std::size_t cell : way) {
     const dem::Cell at = map.place_of(cell);
     for (const auto& [down, right] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       const long long row = at.row + down, column = at.column + right;
       if (row < 0 || column < 0 || row >= g.rows || column >= g.columns || map.index_of(row, column) >= 0)
         continue;
-      if (blocks.has_nodes(static_cast<std::uint32_t>(row / kBlockCells * columns + column / kBlockCells)))
-        return true;
+      if (blocks.has_nodes(block_at(g, row, column))) return true;
     }
   }
   return false;
@@ -62,20 +60,13 @@ bool comes_to_edge(const BlockMap& blocks, const TraverseMap& map, const std::ve
 
 std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<float>& of_blocks) {
   std::vector<float> factors(map.cells(), 0.0F);
-  const long long columns = block_columns(map.geometry());
   for (std::size_t first = 0; first < factors.size(); first += kCellsOfBlock) {
-    if (!of_blocks.empty()) {
-      const dem::Cell at = map.place_of(first);
-      std::fill_n(
-          factors.begin() + static_cast<std::ptrdiff_t>(first), kCellsOfBlock,
-          of_blocks[static_cast<std::size_t>(at.row / kBlockCells * columns + at.column / kBlockCells)]);
-    }
+    const dem::Cell at = map.place_of(first);
+    std::fill_n(factors.begin() + static_cast<std::ptrdiff_t>(first), kCellsOfBlock,
+                of_blocks[block_at(map.geometry(), at.row, at.column)]);
   }
-  for (std::size_t cell = 0; cell < factors.size(); ++cell) {
-    const Passage passage = map.cell(cell).passage;
-    if (passage != Passage::kFree && passage != Passage::kNearKeepOut)
-      charge_beside(map, map.place_of(cell), kBesideClosed, factors);
-  }
+  for (std::size_t cell = 0; cell < factors.size(); ++cell)
+    if (!is_open(map.cell(cell).passage)) charge_beside(map, map.place_of(cell), kBesideClosed, factors);
   keep_off_rises(map, factors);
   return factors;
 }

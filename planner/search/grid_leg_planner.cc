@@ -18,17 +18,6 @@ struct Arrival {
   std::size_t before = 0;
 };
 
-std::vector<Eigen::Vector2d> places_along(const LegSearch& leg) {
-  const std::vector<std::size_t>& cells = leg.sampler->way();
-  std::vector<Eigen::Vector2d> places;
-  if (cells.empty()) return places;
-  // The way's ends are in the first and last cell, mostly not at their centres.
-  places.emplace_back(leg.from.x_m, leg.from.y_m);
-  for (std::size_t k = 1; k + 1 < cells.size(); ++k) places.push_back(leg.cost->map().centre_m(cells[k]));
-  places.emplace_back(leg.to_x_m, leg.to_y_m);
-  return places;
-}
-
 void take_if_cheaper(const MotionCost& cost, const std::vector<Arrival>& reached, std::size_t from,
                      const Motion& motion, Arrival& at) {
   const double sum = reached[from].cost + cost.of(motion);
@@ -52,6 +41,17 @@ class GridPlanner final : public LegPlanner {
 };
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> places_along(const LegSearch& leg) {
+  const std::vector<std::size_t>& cells = leg.sampler->way();
+  std::vector<Eigen::Vector2d> places;
+  if (cells.empty()) return places;
+  // The way's ends are in the first and last cell, mostly not at their centres.
+  places.emplace_back(leg.from.x_m, leg.from.y_m);
+  for (std::size_t k = 1; k + 1 < cells.size(); ++k) places.push_back(leg.cost->map().centre_m(cells[k]));
+  places.emplace_back(leg.to_x_m, leg.to_y_m);
+  return places;
+}
 
 std::vector<Pose2> pull_straight(const MotionCost& cost, const Pose2& from,
                                  const std::vector<Eigen::Vector2d>& places,

@@ -13,7 +13,10 @@ namespace slipway::planner {
 // arrival. Without random numbers, so that it finds the same for every seed.
 std::unique_ptr<LegPlanner> make_grid_planner();
 
-// What it does with the places of a way, the leg's own ends included. Empty where nothing can be driven, or
+// The grid's cheapest way of a leg from its beginning to its end. Empty where there is none.
+std::vector<Eigen::Vector2d> places_along(const LegSearch& leg);
+
+// What it does with the places of a way. Empty where nothing can be driven, or
 // where it was cancelled.
 std::vector<Pose2> pull_straight(const MotionCost& cost, const Pose2& from,
                                  const std::vector<Eigen::Vector2d>& places,

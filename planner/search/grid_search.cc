@@ -3,32 +3,36 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <queue>
+
+#include "planner/search/graph_search.h"
 
 namespace slipway::planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kBetweenAsking = 1U << 15U;  // cells, whether it was cancelled
-
-int opposite(int step) {
-  return (step + kGridSteps / 2) % kGridSteps;
-}
-
-struct Reached {
-  float cost;
-  std::uint32_t cell;
-  // Ties by cell, so that the order is one order.
-  bool operator>(const Reached& other) const {
-    return cost > other.cost || (cost == other.cost && cell > other.cell);
-  }
-};
 
 }  // namespace
 
 double GridSearch::heading_rad(int step) {
   return std::atan2(kGridDirections[static_cast<std::size_t>(step)].up,
                     kGridDirections[static_cast<std::size_t>(step)].right);
+}
+
+const Eigen::Vector2d& GridSearch::direction(int step) {
+  static const std::array<Eigen::Vector2d, kGridSteps> all = [] {
+    std::array<Eigen::Vector2d, kGridSteps> made;
+    for (int k = 0; k < kGridSteps; ++k) made[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
+    return made;
+  }();
+  return all[static_cast<std::size_t>(step)];
+}
+
+std::array<float, kGridSteps> GridSearch::half_lengths_m(const dem::GridGeometry& g) {
+  std::array<float, kGridSteps> half;
+  for (std::size_t k = 0; k < kGridSteps; ++k)
+    half[k] = 0.5F * static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
+                                                   kGridDirections[k].up * g.cell_y_m));
+  return half;
 }
 
 GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()) {
@@ -44,18 +48,13 @@ GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()) {
 }
 
 float GridSearch::found_per_metre(const MotionCost& cost, std::size_t cell, int step) const {
-  static const std::array<Eigen::Vector2d, kGridSteps> direction = [] {
-    std::array<Eigen::Vector2d, kGridSteps> all;
-    for (int k = 0; k < kGridSteps; ++k) all[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
-    return all;
-  }();
   const Passage passage = map_.cell(cell).passage;
   bool open = passage == Passage::kFree;
   if (passage == Passage::kNearKeepOut) {
     const Eigen::Vector2d centre = map_.centre_m(cell);
     open = map_.may_stand({centre.x(), centre.y(), heading_rad(step)});
   }
-  return open ? static_cast<float>(cost.per_metre_in_cell(cell, direction[step].x(), direction[step].y()))
+  return open ? static_cast<float>(cost.per_metre_in_cell(cell, direction(step).x(), direction(step).y()))
               : kInfinity;
 }
 
@@ -100,31 +99,16 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
                   .step = std::vector<std::int16_t>(map_.cells(), -1)};
   const long long origin = map_.index_at(x_m, y_m);
   if (origin < 0) return field;
-  const dem::GridGeometry& g = map_.geometry();
-  std::array<float, kGridSteps> half_length;
-  for (int k = 0; k < kGridSteps; ++k) {
-    half_length[k] = 0.5F * static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
-                                                          kGridDirections[k].up * g.cell_y_m));
-  }
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
-  field.cost[static_cast<std::size_t>(origin)] = 0.0F;
-  open.push({0.0F, static_cast<std::uint32_t>(origin)});
-  std::size_t looked_at = 0;
-  while (!open.empty()) {
-    const Reached here = open.top();
-    open.pop();
-    if (here.cost > field.cost[here.cell]) continue;
-    const float cost_here = here.cost;
-    if (static_cast<long long>(here.cell) == end.at_cell) break;
-    if (++looked_at % kBetweenAsking == 0 && end.cancelled && end.cancelled()) break;
-    const dem::Cell from = map_.place_of(here.cell);
+  const std::array<float, kGridSteps> half_length = half_lengths_m(map_.geometry());
+  const auto leave = [&](std::uint32_t cell, const auto& reach) {
+    const float cost_here = field.cost[cell];
+    const dem::Cell from = map_.place_of(cell);
     for (int k = 0; k < kGridSteps; ++k) {
       // k is the direction away from the origin; the rover drives it, or its opposite on the way to a goal.
       const int driven = to_go ? opposite(k) : k;
-      const float half = per_metre(here.cell, driven);
+      const float half = per_metre(cell, driven);
       if (!(half < kInfinity)) continue;
-      const long long beside =
-          map_.index_of(from.row - kGridDirections[k].up, from.column + kGridDirections[k].right);
+      const long long beside = cell_beyond(map_, from, k);
       if (beside < 0) continue;
       const auto next = static_cast<std::size_t>(beside);
       // Cheaper than this it can't be: most are known at less.
@@ -132,11 +116,14 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
       const float cost = cost_here + half_length[k] * (half + per_metre(next, driven));
       if (!(cost < field.cost[next]) || !passes_corners(from, k, driven) || !clear_of_keep_outs(from, k))
         continue;
-      field.cost[next] = cost;
       field.step[next] = static_cast<std::int16_t>(driven);
-      open.push({cost, static_cast<std::uint32_t>(next)});
+      reach(static_cast<std::uint32_t>(next), cost);
     }
-  }
+  };
+  search_best_first(
+      field.cost, static_cast<std::uint32_t>(origin), [](std::uint32_t, float cost) { return cost; },
+      [&](std::uint32_t cell, float) { return static_cast<long long>(cell) == end.at_cell; }, leave,
+      end.cancelled);
   return field;
 }
 
@@ -159,9 +146,7 @@ std::vector<std::size_t> GridSearch::way(const CostField& to_go, double x_m, dou
   auto cell = static_cast<std::size_t>(start);
   cells.push_back(cell);
   for (int step = to_go.step[cell]; step >= 0; step = to_go.step[cell]) {
-    const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
-    const dem::Cell from = map_.place_of(cell);
-    cell = static_cast<std::size_t>(map_.index_of(from.row - s.up, from.column + s.right));
+    cell = static_cast<std::size_t>(cell_beyond(map_, map_.place_of(cell), step));
     cells.push_back(cell);
   }
   return cells;

@@ -16,7 +16,10 @@ struct GridStep {
 };
 
 constexpr int kGridSteps = 16;
-// Counter-clockwise from east; the opposite of step k is k + 8.
+constexpr int opposite(int step) {
+  return (step + kGridSteps / 2) % kGridSteps;
+}
+// Counter-clockwise from east.
 constexpr std::array<GridStep, kGridSteps> kGridDirections{{{1, 0},
                                                             {2, 1},
                                                             {1, 1},
@@ -33,6 +36,12 @@ constexpr std::array<GridStep, kGridSteps> kGridDirections{{{1, 0},
                                                             {1, -2},
                                                             {1, -1},
                                                             {2, -1}}};
+
+// The cell that a step leads to from another; -1 off the map.
+inline long long cell_beyond(const TraverseMap& map, const dem::Cell& from, int step) {
+  const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
+  return map.index_of(from.row - s.up, from.column + s.right);
+}
 
 // Cost of the cheapest way on the grid between one place and every cell, and the way itself.
 struct CostField {
@@ -69,6 +78,10 @@ class GridSearch {
   std::vector<std::size_t> way(const CostField& to_go, double x_m, double y_m) const;
   // The heading of a step.
   static double heading_rad(int step);
+  // The same as a vector of length 1.
+  static const Eigen::Vector2d& direction(int step);
+  // Half the length of each step.
+  static std::array<float, kGridSteps> half_lengths_m(const dem::GridGeometry& geometry);
 
  private:
   CostField spread(double x_m, double y_m, bool to_go, const SpreadEnd& end) const;

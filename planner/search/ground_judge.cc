@@ -112,6 +112,13 @@ std::vector<Eigen::Vector2d> GroundJudge::judged_places(const Eigen::Vector2d& c
   return places;
 }
 
+dem::CellWindow GroundJudge::rows_of_terrain(long long row, long long rows) const {
+  const dem::GridGeometry& terrain = problem_.terrain->geometry();
+  const long long first = std::max(0LL, row * step_y_ - margin_);
+  const long long last = std::min<long long>(terrain.rows, (row + rows) * step_y_ + margin_);
+  return {static_cast<int>(first), 0, static_cast<int>(last - first), terrain.columns};
+}
+
 bool GroundJudge::holds_a_place(const Eigen::Vector2d& centre) const {
   const long long cell = grid_index(geometry_, centre.x(), centre.y());
   return std::find(cells_of_places_.begin(), cells_of_places_.end(), cell) != cells_of_places_.end();

@@ -21,6 +21,11 @@ enum class Passage : std::uint8_t {
   kKeepOut,      // at the cell's centre the body meets a keep-out at every heading
 };
 
+// The rover's centre may be there, at some heading at least.
+constexpr bool is_open(Passage passage) {
+  return passage == Passage::kFree || passage == Passage::kNearKeepOut;
+}
+
 // The search's cell: the ground as a plane over the rover's footprint. Where a cell covers several of the
 // terrain's, tilt, rise and missing elevation are the worst over all of these, so that no rock in it is
 // overlooked; only a cell that holds a place of the problem is judged at that place, where the rover must
@@ -60,6 +65,8 @@ class GroundJudge {
   // where no elevation is missing. `first`: which cell of the whole terrain is the first of `terrain`.
   void cells(const dem::Terrain& terrain, const dem::Cell& first, const dem::CellWindow& window,
              GroundCell* out, std::size_t stride) const;
+  // The terrain's rows that rows of the search's cells need.
+  dem::CellWindow rows_of_terrain(long long row, long long rows) const;
   // How many of the terrain's cells beyond its own a cell's judgement needs.
   int margin() const { return margin_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/angle.h"
 
@@ -32,7 +33,8 @@ std::vector<double> arrivals(const Waypoint& from, const Waypoint& to) {
 }  // namespace
 
 LegSearch leg_between(const MotionCost& cost, const PoseSampler& sampler, const Pose2& at,
-                      const Waypoint& from, const Waypoint& to, std::uint64_t seed) {
+                      const Waypoint& from, const Waypoint& to, std::uint64_t seed,
+                      std::function<bool()> cancelled) {
   const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   LegSearch search;
   search.cost = &cost;
@@ -44,6 +46,7 @@ LegSearch leg_between(const MotionCost& cost, const PoseSampler& sampler, const 
   search.seed = seed;
   search.iterations = iterations_for(length);
   search.range_m = range_for(length);
+  search.cancelled = std::move(cancelled);
   return search;
 }
 

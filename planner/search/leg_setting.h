@@ -10,7 +10,8 @@ namespace slipway::planner {
 // A leg from a pose at `from` to `to`, with what suits its length: range, iterations and, where `to` has no
 // heading, headings to arrive with.
 LegSearch leg_between(const MotionCost& cost, const PoseSampler& sampler, const Pose2& at,
-                      const Waypoint& from, const Waypoint& to, std::uint64_t seed);
+                      const Waypoint& from, const Waypoint& to, std::uint64_t seed,
+                      std::function<bool()> cancelled);
 
 // Poses that begin and end where the leg does: others would make a route with a leap in it.
 bool joins(const std::vector<Pose2>& poses, const LegSearch& leg);

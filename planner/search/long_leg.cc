@@ -12,6 +12,13 @@ namespace {
 
 constexpr double kPiece_m = 200.0;
 
+template <class Length>
+std::size_t end_of_piece(std::size_t begin, std::size_t places, const Length& length_before) {
+  std::size_t end = begin + 1;
+  for (double driven = 0.0; end + 1 < places && driven < kPiece_m; ++end) driven += length_before(end);
+  return end;
+}
+
 // Motions as they are, and those that would do better.
 void take_cheaper(const MotionCost& cost, std::vector<Motion> other, std::vector<Motion>& motions) {
   if (!other.empty() && fine_cost(cost, other) < fine_cost(cost, motions)) motions = std::move(other);
@@ -63,37 +70,38 @@ std::vector<Motion> joined(const std::vector<std::vector<Motion>>& pieces) {
 
 }  // namespace
 
-std::vector<Motion> drive_long_way(const MotionCost& cost, const Pose2& from,
-                                   const std::vector<Eigen::Vector2d>& way,
-                                   const std::vector<double>& arrival_rad,
-                                   const std::function<bool()>& cancelled) {
+std::size_t piece_end(const std::vector<Eigen::Vector2d>& way, std::size_t begin) {
+  return end_of_piece(begin, way.size(), [&](std::size_t k) { return (way[k] - way[k - 1]).norm(); });
+}
+
+std::vector<Motion> drive_long_way(const LegSearch& leg) {
+  const std::vector<Eigen::Vector2d> way = places_along(leg);
   std::vector<std::vector<Motion>> pieces;
-  Pose2 at = from;
+  Pose2 at = leg.from;
   for (std::size_t begin = 0; begin + 1 < way.size();) {
-    if (cancelled && cancelled()) return {};
-    std::size_t end = begin + 1;
-    for (double driven = 0.0; end + 1 < way.size() && driven < kPiece_m; ++end)
-      driven += (way[end] - way[end - 1]).norm();
+    if (leg.cancelled && leg.cancelled()) return {};
+    const std::size_t end = piece_end(way, begin);
     const bool is_last = end + 1 == way.size();
     const std::vector<Eigen::Vector2d> part(way.begin() + static_cast<std::ptrdiff_t>(begin),
                                             way.begin() + static_cast<std::ptrdiff_t>(end) + 1);
     const Eigen::Vector2d direct = part.back() - part.front();
     const std::vector<double> headings =
-        is_last ? arrival_rad : std::vector<double>{std::atan2(direct.y(), direct.x())};
-    const bool keeps_heading = is_last && arrival_rad.size() == 1;
+        is_last ? leg.arrival_rad : std::vector<double>{std::atan2(direct.y(), direct.x())};
+    const bool keeps_heading = is_last && leg.arrival_rad.size() == 1;
     std::vector<Motion> motions = cell_by_cell(at, part);
     if (keeps_heading) {
-      motions.back().last_turn_rad = wrapped_rad(arrival_rad.front() - motions.back().to.yaw_rad);
-      motions.back().to.yaw_rad = arrival_rad.front();
+      motions.back().last_turn_rad = wrapped_rad(leg.arrival_rad.front() - motions.back().to.yaw_rad);
+      motions.back().to.yaw_rad = leg.arrival_rad.front();
     }
-    const std::vector<Pose2> pulled = pull_straight(cost, at, part, headings, cancelled);
-    if (pulled.size() > 1) take_cheaper(cost, smooth_leg(cost, pulled, keeps_heading, cancelled), motions);
-    if (!std::isfinite(fine_cost(cost, motions))) return {};
+    const std::vector<Pose2> pulled = pull_straight(*leg.cost, at, part, headings, leg.cancelled);
+    if (pulled.size() > 1)
+      take_cheaper(*leg.cost, smooth_leg(*leg.cost, pulled, keeps_heading, leg.cancelled), motions);
+    if (!std::isfinite(fine_cost(*leg.cost, motions))) return {};
     at = motions.back().to;
     pieces.push_back(std::move(motions));
     begin = end;
   }
-  if (!(cancelled && cancelled())) smooth_joints(cost, pieces);
+  if (!(leg.cancelled && leg.cancelled())) smooth_joints(*leg.cost, pieces);
   return joined(pieces);
 }
 
@@ -102,9 +110,9 @@ std::vector<Motion> smooth_long_leg(const MotionCost& cost, const std::vector<Po
   std::vector<std::vector<Motion>> pieces;
   for (std::size_t begin = 0; begin + 1 < poses.size();) {
     if (cancelled && cancelled()) return {};
-    std::size_t end = begin + 1;
-    for (double driven = 0.0; end + 1 < poses.size() && driven < kPiece_m; ++end)
-      driven += std::hypot(poses[end].x_m - poses[end - 1].x_m, poses[end].y_m - poses[end - 1].y_m);
+    const std::size_t end = end_of_piece(begin, poses.size(), [&](std::size_t k) {
+      return std::hypot(poses[k].x_m - poses[k - 1].x_m, poses[k].y_m - poses[k - 1].y_m);
+    });
     const std::vector<Pose2> part(poses.begin() + static_cast<std::ptrdiff_t>(begin),
                                   poses.begin() + static_cast<std::ptrdiff_t>(end) + 1);
     // The next piece begins in the heading that its poses have.

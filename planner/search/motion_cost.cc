@@ -117,8 +117,7 @@ double MotionCost::per_metre_at(const Eigen::Vector2d& place, const Eigen::Vecto
   const long long index = map_->index_at(place.x(), place.y());
   if (index < 0) return kInfinity;
   const auto cell = static_cast<std::size_t>(index);
-  const Passage passage = map_->cell(cell).passage;
-  if (passage != Passage::kFree && passage != Passage::kNearKeepOut) return kInfinity;
+  if (!is_open(map_->cell(cell).passage)) return kInfinity;
   return per_metre_in_cell(cell, heading.x(), heading.y());
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/angle.h"
+#include "planner/search/graph_search.h"
 #include "planner/search/overlap.h"
 
 namespace slipway::planner {
@@ -16,9 +17,7 @@ constexpr double kFromEnds_cells = 4.0;
 constexpr double kWidestGap_m = 15.0;  // to each side; wider is no gap
 
 bool open_cell(const TraverseMap& map, long long index) {
-  if (index < 0) return false;
-  const Passage passage = map.cell(static_cast<std::size_t>(index)).passage;
-  return passage == Passage::kFree || passage == Passage::kNearKeepOut;
+  return index >= 0 && is_open(map.cell(static_cast<std::size_t>(index)).passage);
 }
 
 struct Gap {
@@ -62,29 +61,18 @@ std::optional<Gap> narrowest_gap(const TraverseMap& map, const std::vector<Eigen
 // Cells that can be reached over edges from a cell, those in `closed` left out. Diagonal neighbours touch.
 std::vector<std::uint8_t> reached_from(const TraverseMap& map, long long start,
                                        const std::vector<std::uint8_t>& closed) {
-  std::vector<std::uint8_t> reached(map.cells(), 0);
-  if (start < 0) return reached;
-  const long long columns = map.geometry().columns;
-  const long long rows = map.geometry().rows;
-  std::vector<long long> open{start};
-  reached[static_cast<std::size_t>(start)] = 1;
-  while (!open.empty()) {
-    const long long cell = open.back();
-    open.pop_back();
-    for (long long dr = -1; dr <= 1; ++dr) {
-      for (long long dc = -1; dc <= 1; ++dc) {
-        const long long row = cell / columns + dr;
-        const long long column = cell % columns + dc;
-        if (row < 0 || column < 0 || row >= rows || column >= columns) continue;
-        const long long next = row * columns + column;
+  if (start < 0) return std::vector<std::uint8_t>(map.cells(), 0);
+  return reachable(map.cells(), static_cast<std::size_t>(start), [&](std::size_t cell, const auto& reach) {
+    const dem::Cell at = map.place_of(cell);
+    for (int row = at.row - 1; row <= at.row + 1; ++row) {
+      for (int column = at.column - 1; column <= at.column + 1; ++column) {
+        const long long next = map.index_of(row, column);
+        if (!open_cell(map, next)) continue;
         const auto i = static_cast<std::size_t>(next);
-        if (reached[i] != 0 || (!closed.empty() && closed[i] != 0) || !open_cell(map, next)) continue;
-        reached[i] = 1;
-        open.push_back(next);
+        if (closed.empty() || closed[i] == 0) reach(i);
       }
     }
-  }
-  return reached;
+  });
 }
 
 std::vector<std::uint8_t> closed_across(const TraverseMap& map, const Gap& gap) {

@@ -49,14 +49,16 @@ Pose2 PoseSampler::draw(std::uint64_t seed, std::uint64_t counter) const {
   const std::uint64_t key = random_key(seed, counter);
   const dem::GridGeometry& g = map_.geometry();
   const double kind = random_uniform(key, 0);
+  const auto within = [&](std::size_t cell) {
+    return Eigen::Vector2d(map_.centre_m(cell) +
+                           Eigen::Vector2d((random_uniform(key, 2) - 0.5) * g.cell_x_m,
+                                           (random_uniform(key, 3) - 0.5) * g.cell_y_m));
+  };
   Eigen::Vector2d place;
   if (kind < kShareGuided && !cells_.empty()) {
     const auto at =
         std::upper_bound(cumulative_.begin(), cumulative_.end(), random_uniform(key, 1) * cumulative_.back());
-    const auto k = std::min(static_cast<std::size_t>(at - cumulative_.begin()), cells_.size() - 1);
-    place = map_.centre_m(cells_[k]);
-    place.x() += (random_uniform(key, 2) - 0.5) * g.cell_x_m;
-    place.y() += (random_uniform(key, 3) - 0.5) * g.cell_y_m;
+    place = within(cells_[std::min(static_cast<std::size_t>(at - cumulative_.begin()), cells_.size() - 1)]);
   } else if (kind < kShareGuided + kShareAlongWay && !way_.empty()) {
     const auto k = static_cast<std::size_t>(random_uniform(key, 1) * static_cast<double>(way_.size()));
     place = map_.centre_m(way_[k]);
@@ -64,9 +66,7 @@ Pose2 PoseSampler::draw(std::uint64_t seed, std::uint64_t counter) const {
     place.y() += kAcrossSpread_m * random_normal(key, 3);
   } else if (map_.holds_blocks()) {
     const auto k = static_cast<std::size_t>(random_uniform(key, 1) * static_cast<double>(map_.cells()));
-    place = map_.centre_m(std::min(k, map_.cells() - 1));
-    place.x() += (random_uniform(key, 2) - 0.5) * g.cell_x_m;
-    place.y() += (random_uniform(key, 3) - 0.5) * g.cell_y_m;
+    place = within(std::min(k, map_.cells() - 1));
   } else {
     place = {g.west_m + random_uniform(key, 1) * g.columns * g.cell_x_m,
              g.north_m - random_uniform(key, 2) * g.rows * g.cell_y_m};

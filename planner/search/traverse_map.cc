@@ -16,27 +16,33 @@ int finest_step(double cell_m) {
   return std::max(1, static_cast<int>(std::floor(kFinestCell_m / cell_m + 1e-9)));
 }
 
+// The same ground in cells of so many.
+
+dem::GridGeometry in_cells_of(dem::GridGeometry geometry, int step_x, int step_y) {
+  geometry.rows = (geometry.rows + step_y - 1) / step_y;
+  geometry.columns = (geometry.columns + step_x - 1) / step_x;
+  geometry.cell_x_m *= step_x;
+  geometry.cell_y_m *= step_y;
+  return geometry;
+}
+
 }  // namespace
 
 dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent,
                                   long long max_cells) {
   const dem::CellWindow window =
       terrain.window(extent).value_or(dem::CellWindow{0, 0, terrain.rows, terrain.columns});
-  dem::GridGeometry geometry = terrain.sub(window);
+  const dem::GridGeometry geometry = terrain.sub(window);
   int step_x = finest_step(geometry.cell_x_m), step_y = finest_step(geometry.cell_y_m);
-  const auto rows = [&] { return (window.rows + step_y - 1) / step_y; };
-  const auto columns = [&] { return (window.columns + step_x - 1) / step_x; };
-  while (static_cast<long long>(rows()) * columns() > max_cells) {
+  dem::GridGeometry cells = in_cells_of(geometry, step_x, step_y);
+  while (static_cast<long long>(cells.rows) * cells.columns > max_cells) {
     // The shorter side grows, both where they are equal.
     const double x_m = step_x * geometry.cell_x_m, y_m = step_y * geometry.cell_y_m;
     if (x_m <= y_m) ++step_x;
     if (y_m <= x_m) ++step_y;
+    cells = in_cells_of(geometry, step_x, step_y);
   }
-  geometry.rows = rows();
-  geometry.columns = columns();
-  geometry.cell_x_m *= step_x;
-  geometry.cell_y_m *= step_y;
-  return geometry;
+  return cells;
 }
 
 bool in_finest_cells(const dem::GridGeometry& terrain, const dem::Extent& extent) {
@@ -45,30 +51,19 @@ bool in_finest_cells(const dem::GridGeometry& terrain, const dem::Extent& extent
 }
 
 dem::GridGeometry finest_geometry(const dem::GridGeometry& terrain) {
-  dem::GridGeometry geometry = terrain;
-  const int step_x = finest_step(terrain.cell_x_m), step_y = finest_step(terrain.cell_y_m);
-  geometry.rows = (terrain.rows + step_y - 1) / step_y;
-  geometry.columns = (terrain.columns + step_x - 1) / step_x;
-  geometry.cell_x_m *= step_x;
-  geometry.cell_y_m *= step_y;
-  return geometry;
+  return in_cells_of(terrain, finest_step(terrain.cell_x_m), finest_step(terrain.cell_y_m));
 }
 
 dem::Extent search_extent(const PlanProblem& problem, double rooms) {
   dem::Extent extent{problem.start.x_m, problem.start.y_m, problem.start.x_m, problem.start.y_m};
-  double longest = 0.0;
-  Waypoint last = problem.start;
-  const auto include = [&](const Waypoint& place) {
-    longest = std::max(longest, std::hypot(place.x_m - last.x_m, place.y_m - last.y_m));
+  for (const Waypoint& place : problem.places()) {
     extent.west_m = std::min(extent.west_m, place.x_m);
     extent.south_m = std::min(extent.south_m, place.y_m);
     extent.east_m = std::max(extent.east_m, place.x_m);
     extent.north_m = std::max(extent.north_m, place.y_m);
-    last = place;
-  };
-  for (const Waypoint& place : problem.waypoints) include(place);
-  include(problem.goal);
-  const double room = rooms * std::max(60.0, 0.5 * longest);
+  }
+  const std::vector<double> legs = problem.leg_lengths_m();
+  const double room = rooms * std::max(60.0, 0.5 * *std::max_element(legs.begin(), legs.end()));
   return {extent.west_m - room, extent.south_m - room, extent.east_m + room, extent.north_m + room};
 }
 
@@ -100,15 +95,13 @@ TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, lo
     if (progress.cancelled()) return;
     const int row = static_cast<int>(stripe) * rows_at_once;
     const int rows = std::min(rows_at_once, geometry_.rows - row);
-    const long long first = std::max(0LL, row * step - judge.margin());
-    const long long last = std::min<long long>(terrain.rows, (row + rows) * step + judge.margin());
-    const auto part =
-        problem.terrain->part({static_cast<int>(first), 0, static_cast<int>(last - first), terrain.columns});
+    const dem::CellWindow read = judge.rows_of_terrain(row, rows);
+    const auto part = problem.terrain->part(read);
     if (!part) return;
     // In squares: cells whose neighbours all have a height are judged quickly.
     for (int column = 0; column < geometry_.columns; column += kBlockCells) {
       const dem::CellWindow square{row, column, rows, std::min(kBlockCells, geometry_.columns - column)};
-      judge.cells(*part, {static_cast<int>(first), 0}, square,
+      judge.cells(*part, {read.row, 0}, square,
                   &cells_[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)],
                   columns);
     }
@@ -121,8 +114,7 @@ TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out,
       keep_out_(keep_out),
       blocks_(std::move(blocks)),
       block_columns_(block_columns(geometry_)) {
-  const long long block_rows = (geometry_.rows + kBlockCells - 1) / kBlockCells;
-  slots_.assign(static_cast<std::size_t>(block_rows * block_columns_), -1);
+  slots_.assign(static_cast<std::size_t>(block_rows(geometry_) * block_columns_), -1);
   for (std::size_t k = 0; k < blocks_.size(); ++k) slots_[blocks_[k]] = static_cast<std::int32_t>(k);
   cells_.resize(blocks_.size() * kBlockCells * kBlockCells, GroundCell{.passage = Passage::kNoData});
   const GroundJudge judge(problem, keep_out_, geometry_);

@@ -34,9 +34,24 @@ dem::GridGeometry finest_geometry(const dem::GridGeometry& terrain);
 constexpr int kBlockCells = 16;
 // The cells of a block, which at the east and south edges may be fewer.
 dem::CellWindow block_window(const dem::GridGeometry& geometry, std::uint32_t block);
-// Blocks from west to east.
+// Blocks from west to east, and from north to south.
 inline long long block_columns(const dem::GridGeometry& geometry) {
   return (geometry.columns + kBlockCells - 1) / kBlockCells;
+}
+inline long long block_rows(const dem::GridGeometry& geometry) {
+  return (geometry.rows + kBlockCells - 1) / kBlockCells;
+}
+// The block of a cell.
+inline std::uint32_t block_at(const dem::GridGeometry& geometry, long long row, long long column) {
+  return static_cast<std::uint32_t>(row / kBlockCells * block_columns(geometry) + column / kBlockCells);
+}
+// Calls `visit` for each block within so many of one, that one included, row by row.
+template <class Visit>
+void for_blocks_about(const dem::GridGeometry& geometry, std::uint32_t block, int reach, const Visit& visit) {
+  const long long columns = block_columns(geometry), row = block / columns, column = block % columns;
+  for (long long r = std::max(0LL, row - reach); r <= std::min(block_rows(geometry) - 1, row + reach); ++r)
+    for (long long c = std::max(0LL, column - reach); c <= std::min(columns - 1, column + reach); ++c)
+      visit(static_cast<std::uint32_t>(r * columns + c));
 }
 
 // The search's view of the ground, built once per problem and immutable after. Slopes are least-squares

@@ -44,7 +44,6 @@ class DriveSimulation {
   double progress_m(const double* y) const;
   void raise_peaks();
   void watch_belly();
-  static void raise(Peak& peak, double value, double distance_m);
   void note(DriveEvent event);
   void take_events();
   double leg_way_m(const DriveLeg& leg, double share) const;

@@ -92,14 +92,10 @@ double DriveSimulation::progress_m(const double* y) const {
 void DriveSimulation::raise_peaks() {
   const RoverDynamics::Figures& figures = dynamics_.figures();
   const double at_m = std::max(0.0, progress_m(state()));  // a rover that slid back is not on the way
-  raise(out_.max_tilt_rad, dynamics_.tilt_rad(state()), at_m);
-  raise(out_.max_current_a, figures.current_a, at_m);
-  raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
-  if (figures.slip_ratio) raise(out_.max_slip_ratio, std::abs(*figures.slip_ratio), at_m);
-}
-
-void DriveSimulation::raise(Peak& peak, double value, double distance_m) {
-  if (value > peak.value) peak = {value, distance_m};
+  out_.max_tilt_rad.raise(dynamics_.tilt_rad(state()), at_m);
+  out_.max_current_a.raise(figures.current_a, at_m);
+  out_.max_sinkage_m.raise(figures.sinkage_m, at_m);
+  if (figures.slip_ratio) out_.max_slip_ratio.raise(std::abs(*figures.slip_ratio), at_m);
 }
 
 void DriveSimulation::note(DriveEvent event) {

@@ -20,12 +20,9 @@
 namespace slipway::sim {
 namespace {
 
-// Raises a peak by more than rounding: of places that are alike but for their last bits the first is told,
-// however the draws were dealt into packs.
-void raise(Peak& peak, double value, double distance_m) {
-  constexpr double kRounding = 1e-9;
-  if (value > peak.value * (1.0 + kRounding)) peak = {value, distance_m};
-}
+// The share by which peaks must be exceeded: of places that are alike but for their last bits the first is
+// told, however the draws were dealt into packs.
+constexpr double kAlike = 1e-9;
 
 constexpr std::size_t kMaxFaults = 20;
 
@@ -202,10 +199,10 @@ class Predictor {
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
     p.by_slip_curve |= state.by_slip_curve;
-    raise(p.max_tilt_rad, state.attitude.tilt_rad(), s);
-    raise(p.max_slip_ratio, std::abs(state.slip_ratio), s);
-    raise(p.max_current_a, largest_current_a(state), s);
-    raise(p.max_sinkage_m, deepest_sinkage_m(state), s);
+    p.max_tilt_rad.raise(state.attitude.tilt_rad(), s, kAlike);
+    p.max_slip_ratio.raise(std::abs(state.slip_ratio), s, kAlike);
+    p.max_current_a.raise(largest_current_a(state), s, kAlike);
+    p.max_sinkage_m.raise(deepest_sinkage_m(state), s, kAlike);
     if (!embedded_) embedded_ = !follower_.add(ready, prepared_.stations.size(), state);
     predicted.aside_m = predicted.aside_m_p05 = predicted.aside_m_p95 = follower_.aside_m();
     predicted.slip_ratio_p05 = predicted.slip_ratio_p50 = predicted.slip_ratio_p95 = state.slip_ratio;

@@ -121,8 +121,9 @@ struct Peak {
   double value = 0.0;
   double distance_m = 0.0;
 
-  void raise(double other, double other_distance_m) {
-    if (other > value) *this = {other, other_distance_m};
+  // By more than this share of the value.
+  void raise(double other, double other_distance_m, double share = 0.0) {
+    if (other > value * (1.0 + share)) *this = {other, other_distance_m};
   }
 };
 

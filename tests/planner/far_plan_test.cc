@@ -41,8 +41,7 @@ PlanProblem hills(int rows, int columns) {
 double optimum_on_all_cells(const PlanProblem& problem, const KeepOut& none, const GroundTables& tables) {
   NoProgress progress;
   const dem::GridGeometry g = finest_geometry(problem.terrain->geometry());
-  std::vector<std::uint32_t> all(
-      static_cast<std::size_t>(block_columns(g) * ((g.rows + kBlockCells - 1) / kBlockCells)));
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(block_columns(g) * block_rows(g)));
   std::iota(all.begin(), all.end(), 0U);
   const TraverseMap map(problem, none, all, progress);
   const MotionCost cost(problem, map, tables, problem.weights, problem.ranking.ranked_tail());

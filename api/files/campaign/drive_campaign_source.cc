@@ -14,7 +14,6 @@
 
 #include "api/files/campaign/drive_campaign_file.h"
 #include "api/files/campaign/drive_series_csv.h"
-#include "api/files/campaign/recorded_ground.h"
 #include "api/files/rover_file.h"
 #include "api/files/terrain_site.h"
 #include "api/json/faults.h"
@@ -24,6 +23,7 @@
 #include "dem/soil_map.h"
 #include "gap/diagnosis/model/drive_window.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
+#include "planner/problem/terrain_ground.h"
 
 namespace slipway::api {
 namespace {
@@ -155,7 +155,8 @@ class Loader {
     if (!elevation) return add(entry.pointer + "/dem", elevation.error().detail);
     std::uint64_t digest = fnv1a((*elevation)->terrain->fingerprint());
     if (!entry.soil.empty()) {
-      terrain.ground = std::make_shared<const RecordedGround>((*elevation)->terrain, soil_index(entry.soil));
+      terrain.ground =
+          std::make_shared<const planner::TerrainGround>((*elevation)->terrain, soil_index(entry.soil));
     } else if (!entry.soil_raster.empty()) {
       terrain.ground = mapped_ground(entry, **elevation, digest);
     }
@@ -179,7 +180,7 @@ class Loader {
     for (const std::string& name : (*map)->soils()) soils.push_back(soil_index(name));
     for (const dem::SoilClass& row : entry.classes)
       digest = fnv1a(fmt::format("{} {};", row.value, row.soil.value_or("")), digest);
-    return std::make_shared<const RecordedGround>(elevation.terrain, *map, std::move(soils));
+    return std::make_shared<const planner::TerrainGround>(elevation.terrain, *map, std::move(soils));
   }
 
   void read_drive(json::CampaignDriveEntry& entry) {

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "api/files/campaign/imported_wheels.h"
 #include "core/angle.h"
-#include "core/quantile.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
 #include "sim/rover/drive_command.h"
 
@@ -220,11 +220,6 @@ std::string better_unit(const ImportedCampaign& campaign, std::string_view key, 
     words = fmt::format(" to \"{}\"", unit.name);
   }
   return words;
-}
-
-std::optional<double> median_of(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  return median(std::move(values));
 }
 
 }  // namespace slipway::api

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +16,5 @@ std::vector<std::string> unit_warnings(const ImportedCampaign& campaign, const g
 // " to \"rad\"", the unit in which values that are `times` as large as expected would be as expected; ""
 // where none is.
 std::string better_unit(const ImportedCampaign& campaign, std::string_view key, double times);
-
-// The median; nothing of no values.
-std::optional<double> median_of(std::vector<double> values);
 
 }  // namespace slipway::api

@@ -26,7 +26,7 @@ std::optional<std::string> sense_of_rates(ImportedWheels& wheels) {
     for (const DriveOfWheels& drive : wheels.drives())
       if (!drive.in_place && drive.told[k].rate_rad_s != 0.0)
         shares.push_back(relative(drive.rate_rad_s)[k] / relative(rates_of(drive.told))[k]);
-    if (middle(std::move(shares)) < kOtherSense) turned.push_back(k);
+    if (const auto half = median_of(std::move(shares)); half && *half < kOtherSense) turned.push_back(k);
   }
   if (turned.empty()) return std::nullopt;
   wheels.turn_rates(turned);

@@ -115,8 +115,8 @@ class OrderJudge {
     std::vector<double> shares;
     for (const DriveOfWheels& drive : wheels_.drives())
       if (drive.turns) shares.push_back(drive.yaw_share);
-    const double half = middle(std::move(shares));
-    if (!(half < kOtherSense)) return false;
+    const auto half = median_of(std::move(shares));
+    if (!half || *half >= kOtherSense) return false;
     const std::string yaw =
         wheels_.campaign().columns.empty() ? "" : key_words(wheels_.campaign(), yaw_key());
     const std::string of_yaw = yaw_key() == kAttitudeKey
@@ -128,7 +128,7 @@ class OrderJudge {
     warnings_.push_back(fmt::format(
         "in half of the drives that turn the heading turned by {:.2f} times the commanded angle or less, as "
         "read from {}; expected is about 1. {}",
-        half, sources_of(wheels_.campaign(), yaw_key()),
+        *half, sources_of(wheels_.campaign(), yaw_key()),
         wheels_as_told     ? "The wheels turned as commanded, so " + of_yaw
         : wheels_otherwise ? "The wheels turned to that side too, so " + of_drives
                            : fmt::format("Either {}, or {}", of_drives, of_yaw)));

@@ -29,9 +29,9 @@ double greatest(const std::vector<double>& values) {
 
 }  // namespace
 
-double middle(std::vector<double> values) {
+std::optional<double> median_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  return values.empty() ? kNone : median(std::move(values));
+  return values.empty() ? std::nullopt : std::optional(median(std::move(values)));
 }
 
 std::vector<WheelCommand> commands(const sim::RoverModel& rover, const sim::DriveCommand& command) {
@@ -70,8 +70,8 @@ DriveOfWheels drive_of(const sim::RoverModel& rover, const MeasuredDriveSeries& 
       rates.push_back(sample.wheels[k].rate_rad_s);
       angles.push_back(sample.wheels[k].steer_rad);
     }
-    of.rate_rad_s.push_back(middle(std::move(rates)));
-    of.steer_rad.push_back(middle(std::move(angles)));
+    of.rate_rad_s.push_back(median_of(std::move(rates)).value_or(kNone));
+    of.steer_rad.push_back(median_of(std::move(angles)).value_or(kNone));
   }
   if (of.turns && !drive.samples.empty()) of.yaw_share = yaw_share_of(drive);
   return of;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ struct DriveOfWheels {
   double yaw_share = gap::kNotMeasured;  // of the commanded change of heading
 };
 
-// The median of those that are finite; NaN where none is.
-double middle(std::vector<double> values);
+// The median of those that are finite; nothing where none is.
+std::optional<double> median_of(std::vector<double> values);
 // The rates over the greatest of them: units cancel.
 std::vector<double> relative(std::vector<double> rates);
 std::vector<double> rates_of(const std::vector<sim::WheelCommand>& told);
