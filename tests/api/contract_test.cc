@@ -11,7 +11,7 @@
 #include "api/documents/plan_answer.h"
 #include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/openapi.h"
 #include "api/wheel_sweep.h"
@@ -286,7 +286,7 @@ TEST(Contract, APathThroughAHoleNamesTheCorner) {
 }
 
 TEST(Contract, DismissingAPlanStopsThePlannersWithinTwoSeconds) {
-  JobRunner runner(make_memory_job_store(), service_work(small_world()));
+  JobRunner runner(open_job_store("").value(), service_work(small_world()));
   ASSERT_TRUE(runner.start());
   const auto job = runner.submit("plan", example("plan_shortest.json"));
   ASSERT_TRUE(job);

@@ -12,7 +12,7 @@
 #include "api/files/corrected_model.h"
 #include "api/files/model_folder.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/model_reference.h"
 #include "made_diagnosis.h"
 #include "small_world.h"
@@ -63,7 +63,7 @@ class ANamedModel : public ::testing::Test {
     return json::write_prediction_answer(*answer);
   }
 
-  std::unique_ptr<JobStore> store_ = make_memory_job_store();
+  std::unique_ptr<JobStore> store_ = open_job_store("").value();
 };
 
 TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
@@ -71,7 +71,7 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
   add("d1", kDiagnosisKind, document(diagnosis));
   const auto request = recorded(request_with(naming("d1", R"(,"ground":["mer_b_sandy_loam"])")));
   ASSERT_TRUE(request) << request.error().detail;
-  store_ = make_memory_job_store();
+  store_ = open_job_store("").value();
 
   // As the command line plans with the folder of the same model.
   const testing::ScratchFolder folder;

@@ -9,7 +9,7 @@
 #include "api/documents/drive_commands.h"
 #include "api/documents/plan_answer.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 #include "api/plan_reference.h"
@@ -121,7 +121,7 @@ class APlanOfAJob : public ::testing::Test {
     return request ? "" : request.error().faults.at(0).pointer;
   }
 
-  std::unique_ptr<JobStore> store_ = make_memory_job_store();
+  std::unique_ptr<JobStore> store_ = open_job_store("").value();
 };
 
 TEST_F(APlanOfAJob, IsCheckedByItsName) {
