@@ -14,6 +14,7 @@
 #include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/openapi.h"
+#include "api/service_diagnoses.h"
 #include "api/wheel_sweep.h"
 #include "made_diagnosis.h"
 #include "small_world.h"
@@ -153,7 +154,7 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
 }
 
 TEST(Contract, ASoilEstimateFitsTheDescription) {
-  const auto request = small_world().read_soil_estimate(R"({"plate_tests":[{"plate_radius_m":0.05,
+  const auto request = read_soil_estimate(small_world(), R"({"plate_tests":[{"plate_radius_m":0.05,
     "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
   ASSERT_TRUE(request) << request.error().detail;
   const std::string document = answer_to("soil_estimate", R"({"plate_tests":[{"plate_radius_m":0.05,

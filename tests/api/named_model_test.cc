@@ -14,6 +14,7 @@
 #include "api/job_kinds.h"
 #include "api/jobs/open_job_store.h"
 #include "api/model_reference.h"
+#include "api/service_drives.h"
 #include "made_diagnosis.h"
 #include "small_world.h"
 
@@ -50,15 +51,15 @@ class ANamedModel : public ::testing::Test {
   }
   Result<std::string> recorded(const std::string& request) {
     return recordable_request(request, *store_, [](std::string_view body) -> std::optional<Error> {
-      const auto reading = small_world().read_prediction(body);
+      const auto reading = read_prediction(small_world(), body);
       return reading ? std::nullopt : std::optional<Error>(reading.error());
     });
   }
   static std::string predicted(const Service& service, const std::string& request) {
     NoProgress progress;
-    const auto reading = service.read_prediction(request);
+    const auto reading = read_prediction(service, request);
     EXPECT_TRUE(reading) << (reading ? "" : reading.error().detail);
-    const auto answer = service.predict(*reading, progress);
+    const auto answer = run_prediction(service, *reading, progress);
     EXPECT_TRUE(answer);
     return json::write_prediction_answer(*answer);
   }
@@ -173,7 +174,7 @@ TEST_F(ANamedModel, IsNamedAndNotGiven) {
   const auto whole = recorded(request_with(naming("d1")));
   ASSERT_TRUE(whole);
   EXPECT_FALSE(recorded(*whole));
-  const auto alone = small_world().read_prediction(request_with(naming("d1")));
+  const auto alone = read_prediction(small_world(), request_with(naming("d1")));
   ASSERT_FALSE(alone);
   EXPECT_EQ(alone.error().faults.at(0).pointer, "/model/diagnosis");
 }

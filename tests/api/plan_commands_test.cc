@@ -13,6 +13,7 @@
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 #include "api/plan_reference.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -33,16 +34,16 @@ JsonValue parsed(const std::string& bytes) {
 
 std::string planned(const Service& service, const std::string& request) {
   NoProgress progress;
-  const auto read = service.read_plan(request);
+  const auto read = read_plan(service, request);
   EXPECT_TRUE(read) << (read ? "" : read.error().detail);
-  return json::write_plan_answer(service.plan(*read, progress).value());
+  return json::write_plan_answer(run_plan(service, *read, progress).value());
 }
 
 std::string checked(const Service& service, const std::string& request) {
   NoProgress progress;
-  const auto read = service.read_check(request);
+  const auto read = read_check(service, request);
   EXPECT_TRUE(read) << (read ? "" : read.error().detail);
-  return json::write_check_answer(service.check(*read, progress).value());
+  return json::write_check_answer(run_check(service, *read, progress).value());
 }
 
 // Every figure that a check of the route's commands has is the plan's.
@@ -151,7 +152,8 @@ TEST_F(APlanOfAJob, ThatIsNoneOrHasNoSuchRouteIsRefusedAtItsPlace) {
 }
 
 TEST(PlanCommands, APlanToTheSamePlaceIsRefusedAndNamesBoth) {
-  const auto read = testing::small_world().read_plan(
+  const auto read = read_plan(
+      testing::small_world(),
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":20,"y_m":30}})");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kInvalidRequest);
