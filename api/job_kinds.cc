@@ -20,6 +20,10 @@
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
 #include "api/report/route_map.h"
+#include "api/service_diagnoses.h"
+#include "api/service_drives.h"
+#include "api/service_map.h"
+#include "api/service_uploads.h"
 
 namespace slipway::api {
 namespace {
@@ -40,9 +44,9 @@ MapTarget served_map() {
 
 // A map that is too large is refused before it is a job.
 Result<MapRequest> read_served_map(const Service& service, std::string_view body) {
-  auto request = service.read_map(body);
+  auto request = read_map(service, body);
   if (!request) return request;
-  if (auto size = service.check_map_size(*request, kMaxServedMapCells); !size) return fail(size.error());
+  if (auto size = check_map_size(service, *request, kMaxServedMapCells); !size) return fail(size.error());
   return request;
 }
 
@@ -50,7 +54,7 @@ Result<MapRequest> read_served_map(const Service& service, std::string_view body
 std::vector<std::string> map_parts(const Service& service, const MapRequest& request,
                                    std::string_view recorded) {
   std::vector<std::string> parts;
-  const auto pieces = service.map_pieces(request);
+  const auto pieces = map_pieces(service, request);
   if (!pieces) return parts;
   for (const auto& [row, column] : *pieces) parts.push_back(fmt::format("{} {}\n{}", row, column, recorded));
   return parts;
@@ -60,17 +64,17 @@ Result<JobAnswer> map_part(const Service& service, std::string_view part, Progre
   const std::size_t head = part.find('\n');
   MapPieceIndex piece;
   std::istringstream(std::string(part.substr(0, head))) >> piece.row >> piece.column;
-  const auto request = service.read_map(part.substr(head + 1));
+  const auto request = read_map(service, part.substr(head + 1));
   if (!request) return fail(request.error());
-  auto tiles = service.map_piece(*request, served_map(), piece, progress);
+  auto tiles = map_piece(service, *request, served_map(), piece, progress);
   if (!tiles) return fail(tiles.error());
   return JobAnswer("tiles", *std::move(tiles));
 }
 
 Result<MapAnswer> put_map_together(const Service& service, const MapRequest& request, const PartAnswer& parts,
                                    Progress& progress) {
-  return service.map_of_pieces(
-      request, served_map(),
+  return map_of_pieces(
+      service, request, served_map(),
       [&](int piece) -> Result<std::vector<std::string>> {
         auto answer = parts(piece);
         if (!answer) return fail(answer.error());
@@ -89,8 +93,8 @@ std::vector<JobKind> all_kinds() {
       job_kind(JobKindRow<PlanRequest, PlanAnswer>{
           .name = std::string(kPlanKind),
           .path = "/v1/plans",
-          .read = &Service::read_plan,
-          .run = &Service::plan,
+          .read = &read_plan,
+          .run = &run_plan,
           .write = &written<PlanAnswer, &json::write_plan_answer, StationDetail::kThinned>,
           .write_whole = &written<PlanAnswer, &json::write_plan_answer, StationDetail::kWhole>,
           .map = &draw_route_map,
@@ -98,8 +102,8 @@ std::vector<JobKind> all_kinds() {
       job_kind(JobKindRow<PredictionRequest, PredictionAnswer>{
           .name = std::string(kPredictionKind),
           .path = "/v1/predictions",
-          .read = &Service::read_prediction,
-          .run = &Service::predict,
+          .read = &read_prediction,
+          .run = &run_prediction,
           .write = &written<PredictionAnswer, &json::write_prediction_answer, StationDetail::kThinned>,
           .write_whole = &written<PredictionAnswer, &json::write_prediction_answer, StationDetail::kWhole>,
           .map = &draw_route_map,
@@ -109,8 +113,8 @@ std::vector<JobKind> all_kinds() {
       job_kind(JobKindRow<CheckRequest, CheckAnswer>{
           .name = std::string(kCheckKind),
           .path = "/v1/checks",
-          .read = &Service::read_check,
-          .run = &Service::check,
+          .read = &read_check,
+          .run = &run_check,
           .write = &written<CheckAnswer, &json::write_check_answer, StationDetail::kThinned>,
           .write_whole = &written<CheckAnswer, &json::write_check_answer, StationDetail::kWhole>,
           .map = &draw_route_map,
@@ -121,8 +125,8 @@ std::vector<JobKind> all_kinds() {
           .may_name_plan = true}),
       job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
                                                              .path = "/v1/diagnoses",
-                                                             .read = &Service::read_diagnosis,
-                                                             .run = &Service::diagnose,
+                                                             .read = &read_diagnosis,
+                                                             .run = &run_diagnosis,
                                                              .write =
                                                                  [](const DiagnosisAnswer& answer) {
                                                                    return json::diagnosis_document(
@@ -132,8 +136,8 @@ std::vector<JobKind> all_kinds() {
                                                              .lane = Lane::kLong}),
       job_kind(JobKindRow<ModelCheckRequest, ModelCheckAnswer>{.name = "model_check",
                                                                .path = "/v1/model-checks",
-                                                               .read = &Service::read_model_check,
-                                                               .run = &Service::check_model,
+                                                               .read = &read_model_check,
+                                                               .run = &run_model_check,
                                                                .write = &json::model_check_document,
                                                                .usual_wait = std::chrono::seconds(10),
                                                                .lane = Lane::kShort,
@@ -141,29 +145,36 @@ std::vector<JobKind> all_kinds() {
       job_kind(JobKindRow<WatchRequest, WatchAnswer>{
           .name = std::string(kWatchKind),
           .path = "/v1/watches",
-          .read = &Service::read_watch,
-          .run = &Service::watch,
+          .read = &read_watch,
+          .run = &run_watch,
           .write = [](const WatchAnswer& answer) { return json::watch_document(answer.watch); },
           .usual_wait = std::chrono::seconds(10),
           .may_continue = true}),
       job_kind(JobKindRow<SoilEstimateRequest, SoilEstimateAnswer>{.name = "soil_estimate",
                                                                    .path = "/v1/soil-estimates",
-                                                                   .read = &Service::read_soil_estimate,
-                                                                   .run = &Service::estimate_soil,
+                                                                   .read = &read_soil_estimate,
+                                                                   .run = &run_soil_estimate,
                                                                    .write = &json::soil_estimate_document,
                                                                    .lane = Lane::kShort}),
-      job_kind(JobKindRow<CampaignOrder, CampaignTaken>{.name = "drive_campaign",
-                                                        .path = "/v1/drive-campaigns",
-                                                        .read = &Service::read_campaign,
-                                                        .run = &Service::take_campaign,
-                                                        .write = &json::write_campaign_taken,
-                                                        .usual_wait = std::chrono::seconds(20),
-                                                        .lane = Lane::kShort}),
+      job_kind(JobKindRow<CampaignOrder, CampaignTaken>{
+          .name = "drive_campaign",
+          .path = "/v1/drive-campaigns",
+          .read = &read_campaign,
+          .run =
+              [](const Service& service, const CampaignOrder& order, Progress& progress) {
+                return take_campaign(*service.uploads(), order, *service.catalogue(), progress);
+              },
+          .write = &json::write_campaign_taken,
+          .usual_wait = std::chrono::seconds(20),
+          .lane = Lane::kShort}),
       job_kind(JobKindRow<TerrainOrder, TerrainImportReport>{
           .name = "terrain",
           .path = "/v1/terrains",
-          .read = &Service::read_terrain,
-          .run = &Service::take_terrain,
+          .read = &read_terrain,
+          .run =
+              [](const Service& service, const TerrainOrder& order, Progress& progress) {
+                return take_terrain(*service.uploads(), order, *service.catalogue(), progress);
+              },
           .write =
               [](const TerrainImportReport& report) { return report.json.substr(0, report.json.find('\n')); },
           .usual_wait = std::chrono::seconds(20)}),
@@ -172,7 +183,7 @@ std::vector<JobKind> all_kinds() {
           .path = "/v1/maps",
           .read = &read_served_map,
           .run = [](const Service& service, const MapRequest& request,
-                    Progress& progress) { return service.map(request, served_map(), progress); },
+                    Progress& progress) { return run_map(service, request, served_map(), progress); },
           .write = &json::write_map_answer,
           .raster = [](const MapAnswer& answer) { return answer.cog; },
           .split = &map_parts,

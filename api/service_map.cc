@@ -1,4 +1,5 @@
-// Maps of the ground as rasters.
+#include "api/service_map.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include "api/maps/map_documents.h"
 #include "api/maps/map_layer.h"
 #include "api/maps/map_tiles.h"
-#include "api/service.h"
+#include "api/service_setting.h"
 #include "core/sha256.h"
 #include "core/version.h"
 #include "dem/tile_file.h"
@@ -53,12 +54,15 @@ std::string map_key_of(const MapRequest& request, const MapSources& sources, con
   return hash.digest();
 }
 
-// Cells of the terrain that meet the extent; all where none is given.
-Result<dem::CellWindow> map_window_of(const MapRequest& request, const dem::GridGeometry& geometry) {
-  if (!request.extent) return dem::CellWindow{0, 0, geometry.rows, geometry.columns};
-  const auto window = geometry.window(*request.extent);
-  if (window) return *window;
-  const dem::Extent map = geometry.extent();
+// The cells of the terrain that meet the extent; all where none is given. Errors: not_found, off_map.
+Result<dem::GridGeometry> map_geometry_of(const MapRequest& request, const Catalogue& catalogue) {
+  const auto found = catalogue.terrains.find(request.terrain);
+  if (found == catalogue.terrains.end())
+    return fail(ErrorCode::kNotFound, unknown_terrain(catalogue, request.terrain));
+  const dem::GridGeometry& all = found->second->info().geometry;
+  if (!request.extent) return all;
+  if (const auto window = all.window(*request.extent)) return all.sub(*window);
+  const dem::Extent map = all.extent();
   return fail(ErrorCode::kOffMap, "The extent does not meet the terrain.",
               {{"/extent", fmt::format("the terrain is west {} south {} east {} north {} m", map.west_m,
                                        map.south_m, map.east_m, map.north_m)}});
@@ -151,41 +155,27 @@ Result<void> finish_map(const MapTarget& target, dem::TileStore& store, std::siz
   return {};
 }
 
-}  // namespace
-
-Result<void> Service::check_map_size(const MapRequest& request, long long max_cells) const {
-  const std::shared_ptr<const Catalogue> all = catalogue();
-  const auto found = all->terrains.find(request.terrain);
-  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
-  const dem::GridGeometry& geometry = found->second->info().geometry;
-  const auto window = map_window_of(request, geometry);
-  if (!window) return fail(window.error());
-  return check_cells(geometry.sub(*window), max_cells);
-}
-
-struct Service::MapWork {
+// A map before its cells are made.
+struct MapWork {
   std::shared_ptr<const Catalogue> all;
   const TerrainSite* site = nullptr;
-  Setting setting;
+  DriveSetting setting;
   MapSources sources;
   MapAnswer answer;  // with its layer, but without cells; of maps of ways not even that
 };
 
-Result<Service::MapWork> Service::prepare_map(const MapRequest& request, const MapTarget& target,
-                                              Progress& progress) const {
+Result<MapWork> prepare_map(const Service& service, const MapRequest& request, const MapTarget& target,
+                            Progress& progress) {
   progress.report("reading the terrain", 0.0);
-  const std::shared_ptr<const Catalogue> all = catalogue();
-  const auto found = all->terrains.find(request.terrain);
-  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
-  const TerrainSite& site = *found->second;
-  const auto window = map_window_of(request, site.info().geometry);
-  if (!window) return fail(window.error());
-  const dem::GridGeometry geometry = site.info().geometry.sub(*window);
-  if (const auto size = check_cells(geometry, target.max_cells); !size) return fail(size.error());
+  const std::shared_ptr<const Catalogue> all = service.catalogue();
+  const auto geometry = map_geometry_of(request, *all);
+  if (!geometry) return fail(geometry.error());
+  if (const auto size = check_cells(*geometry, target.max_cells); !size) return fail(size.error());
+  const TerrainSite& site = *all->terrains.find(request.terrain)->second;
   const bool by_search = planner::row_of(request.kind).by_search;
   // Cells by themselves are read piece by piece.
-  const dem::GridGeometry first = by_search ? geometry : geometry.sub({0, 0, 1, 1});
-  auto setting = set_up(request.terrain, request.rover, {}, request.drive, progress, first.extent());
+  const dem::GridGeometry first = by_search ? *geometry : geometry->sub({0, 0, 1, 1});
+  auto setting = set_up(service, request.terrain, request.rover, {}, request.drive, progress, first.extent());
   if (!setting) return fail(setting.error());
   planner::PlanProblem& problem = setting->problem;
   problem.weights = request.weights;
@@ -196,12 +186,13 @@ Result<Service::MapWork> Service::prepare_map(const MapRequest& request, const M
   if (!sources) return fail(sources.error());
   MapAnswer answer{request, setting->provenance, {}, {}, 0, {}};
   if (!by_search)
-    answer.layer = map_layer(request, answer.provenance, problem, *sources, geometry, site.info().crs_wkt);
+    answer.layer = map_layer(request, answer.provenance, problem, *sources, *geometry, site.info().crs_wkt);
   return MapWork{all, &site, *std::move(setting), *std::move(sources), std::move(answer)};
 }
 
 // Computes the tiles that the store does not have.
-Result<void> Service::fill_map(const MapWork& work, dem::TileStore& store, Progress& progress) const {
+Result<void> fill_map(const Service& service, const MapWork& work, dem::TileStore& store,
+                      Progress& progress) {
   const MapRequest& request = work.answer.request;
   const planner::CellMap cells({.drive = work.setting.problem,
                                 .kind = request.kind,
@@ -209,11 +200,31 @@ Result<void> Service::fill_map(const MapWork& work, dem::TileStore& store, Progr
                                 .distance_m = request.distance_m,
                                 .price_unknown = request.price_unknown});
   const Legend& legend = *work.site->description().legend(request.drive.legend);
-  return fill_tiles(cells, *work.site, legend, work.answer.layer, store, options_.threads, progress);
+  return fill_tiles(cells, *work.site, legend, work.answer.layer, store, service.options().threads, progress);
 }
 
-Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& target, Progress& progress) const {
-  auto work = prepare_map(request, target, progress);
+}  // namespace
+
+Result<MapRequest> read_map(const Service& service, std::string_view json) {
+  return checked(service, json::read_map_request(json, service.options().costs),
+                 [](const MapRequest& request, RequestCheck& check) {
+                   if (request.place)
+                     check.place(*request.place,
+                                 request.kind == planner::MapKind::kCostToGo ? "/to" : "/from");
+                   check.zones(request.keep_out, "/keep_out");
+                   check.zones(request.keep_in, "/keep_in");
+                 });
+}
+
+Result<void> check_map_size(const Service& service, const MapRequest& request, long long max_cells) {
+  const auto geometry = map_geometry_of(request, *service.catalogue());
+  if (!geometry) return fail(geometry.error());
+  return check_cells(*geometry, max_cells);
+}
+
+Result<MapAnswer> run_map(const Service& service, const MapRequest& request, const MapTarget& target,
+                          Progress& progress) {
+  auto work = prepare_map(service, request, target, progress);
   if (!work) return fail(work.error());
   MapAnswer& answer = work->answer;
   dem::MemoryTiles in_memory;
@@ -224,7 +235,7 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
     answer.layer = map_layer(request, answer.provenance, work->setting.problem, work->sources, ways->geometry,
                              work->site->info().crs_wkt);
     if (auto filled = fill_tiles(ways->values, answer.layer, in_memory); !filled) return fail(filled.error());
-    if (auto done = finish_map(target, in_memory, options_.threads, progress, answer); !done)
+    if (auto done = finish_map(target, in_memory, service.options().threads, progress, answer); !done)
       return fail(done.error());
     return std::move(answer);
   }
@@ -239,36 +250,33 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
   }
   dem::TileStore& store = file ? static_cast<dem::TileStore&>(*file) : in_memory;
   planner::StageProgress stage(progress, "computing tiles", 0.0, kTilesComputed);
-  if (auto filled = fill_map(*work, store, stage); !filled) return fail(filled.error());
-  if (auto done = finish_map(target, store, options_.threads, progress, answer); !done)
+  if (auto filled = fill_map(service, *work, store, stage); !filled) return fail(filled.error());
+  if (auto done = finish_map(target, store, service.options().threads, progress, answer); !done)
     return fail(done.error());
   return std::move(answer);
 }
 
-Result<std::vector<MapPieceIndex>> Service::map_pieces(const MapRequest& request) const {
+Result<std::vector<MapPieceIndex>> map_pieces(const Service& service, const MapRequest& request) {
   if (planner::row_of(request.kind).by_search) return std::vector<MapPieceIndex>();
-  const std::shared_ptr<const Catalogue> all = catalogue();
-  const auto found = all->terrains.find(request.terrain);
-  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
-  const dem::GridGeometry& geometry = found->second->info().geometry;
-  const auto window = map_window_of(request, geometry);
-  if (!window) return fail(window.error());
-  return pieces_of_map(geometry.sub(*window));
+  const auto geometry = map_geometry_of(request, *service.catalogue());
+  if (!geometry) return fail(geometry.error());
+  return pieces_of_map(*geometry);
 }
 
-Result<std::vector<std::string>> Service::map_piece(const MapRequest& request, const MapTarget& target,
-                                                    const MapPieceIndex& piece, Progress& progress) const {
-  const auto work = prepare_map(request, target, progress);
+Result<std::vector<std::string>> map_piece(const Service& service, const MapRequest& request,
+                                           const MapTarget& target, const MapPieceIndex& piece,
+                                           Progress& progress) {
+  const auto work = prepare_map(service, request, target, progress);
   if (!work) return fail(work.error());
   PieceTiles tiles(piece);
-  if (auto filled = fill_map(*work, tiles, progress); !filled) return fail(filled.error());
+  if (auto filled = fill_map(service, *work, tiles, progress); !filled) return fail(filled.error());
   return tiles.in_order();
 }
 
-Result<MapAnswer> Service::map_of_pieces(const MapRequest& request, const MapTarget& target,
-                                         const std::function<Result<std::vector<std::string>>(int)>& tiles_of,
-                                         Progress& progress) const {
-  auto work = prepare_map(request, target, progress);
+Result<MapAnswer> map_of_pieces(const Service& service, const MapRequest& request, const MapTarget& target,
+                                const std::function<Result<std::vector<std::string>>(int)>& tiles_of,
+                                Progress& progress) {
+  auto work = prepare_map(service, request, target, progress);
   if (!work) return fail(work.error());
   MapAnswer& answer = work->answer;
   const dem::LevelSize size = dem::size_of_level(answer.layer.geometry, 0);
@@ -287,9 +295,42 @@ Result<MapAnswer> Service::map_of_pieces(const MapRequest& request, const MapTar
           return fail(written.error());
       }
   }
-  if (auto done = finish_map(target, store, options_.threads, progress, answer); !done)
+  if (auto done = finish_map(target, store, service.options().threads, progress, answer); !done)
     return fail(done.error());
   return std::move(answer);
+}
+
+Result<GroundAt> ground_at(const Service& service, std::string_view terrain, double x_m, double y_m) {
+  const std::shared_ptr<const Catalogue> all = service.catalogue();
+  const auto found = all->terrains.find(terrain);
+  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, terrain));
+  const TerrainSite& site = *found->second;
+  RequestCheck check(*all, {});
+  check.names(std::string(terrain), names_of(all->rovers).front());
+  check.place({x_m, y_m, std::nullopt}, "");
+  if (!check.passed()) return fail(check.error());
+  const dem::GridGeometry& geometry = site.info().geometry;
+  GroundAt at;
+  at.x_m = x_m;
+  at.y_m = y_m;
+  // A wheelbase, or what the raster can tell.
+  at.roughness_radius_m = std::max(1.5, 1.5 * std::max(geometry.cell_x_m, geometry.cell_y_m));
+  const double reach = at.roughness_radius_m + 2.0 * std::max(geometry.cell_x_m, geometry.cell_y_m);
+  const auto ground = site.read({x_m - reach, y_m - reach, x_m + reach, y_m + reach});
+  if (!ground) return fail(ground.error());
+  const auto surface = ground->terrain->surface(x_m, y_m);
+  if (!surface) return fail(ErrorCode::kNoData, "the terrain has no elevation there");
+  at.height_m = surface->height_m;
+  at.slope_rad = surface->slope_rad();
+  at.aspect_rad = surface->aspect_rad();
+  at.roughness_m = ground->terrain->roughness_m(x_m, y_m, at.roughness_radius_m);
+  if (const auto mapped = ground->soil_map->class_at(x_m, y_m)) {
+    for (const dem::SoilClass& entry : ground->soil_map->legend()) {
+      if (entry.value == *mapped) at.label = entry.label;
+    }
+  }
+  if (const auto soil = ground->soil_map->soil_at(x_m, y_m)) at.soil = ground->soil_map->soils()[*soil];
+  return at;
 }
 
 }  // namespace slipway::api

@@ -1,15 +1,16 @@
-// What plans, predictions and checks share: from a request's assumptions to a problem on the terrain.
+#include "api/service_setting.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "api/documents/drive_assumptions.h"
+#include "api/files/model_folder.h"
 #include "api/files/relief_values.h"
 #include "api/ground_evidence.h"
-#include "api/request_check.h"
+#include "api/json/faults.h"
 #include "api/requests/soil_regions.h"
-#include "api/service.h"
 #include "api/soil_beliefs.h"
 #include "core/random.h"
 #include "planner/judge/deciding_draws.h"
@@ -104,15 +105,64 @@ std::vector<planner::Waypoint> places_to_read(const TerrainSite& site, const Dri
   return places;
 }
 
+// The service's own, or a copy with the request's model in it.
+std::shared_ptr<const Catalogue> catalogue_of(const Service& service,
+                                              const std::optional<RequestedModel>& model, std::string& rover,
+                                              std::vector<Fault>& faults) {
+  std::shared_ptr<const Catalogue> all = service.catalogue();
+  if (!model) return all;
+  auto with = with_model(*all, *model->corrected, model->ground);
+  if (!with) {
+    for (Fault& fault : moved_under("/model", with.error().faults)) faults.push_back(std::move(fault));
+    return all;
+  }
+  if (rover == model->corrected->nominal_rover) rover = model->corrected->model.rover.name;
+  if (rover != model->corrected->model.rover.name)
+    for (Fault& fault : not_of_this_rover(*model->corrected, rover).faults)
+      faults.push_back(std::move(fault));
+  return std::make_shared<const Catalogue>(*std::move(with));
+}
+
+// Conditions the setting's draws on the drive under way.
+Result<void> learn(const DriveAssumptions& drive, Progress& progress, DriveSetting& setting) {
+  progress.report("conditioning the ground on the drive so far", 0.0);
+  planner::PlanProblem& problem = setting.problem;
+  std::vector<sim::ConditionedDraw> draws;
+  if (problem.risk.conditioned)
+    draws = *problem.risk.conditioned;
+  else
+    draws.resize(
+        static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
+  auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
+  if (!stretches) return fail(stretches.error());
+  setting.provenance.learnt =
+      LearntDrive{std::move(*stretches), static_cast<int>(draws.size()), sim::effective_draws(draws)};
+  const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
+  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(
+      sim::renewed(draws, wanted, random_key(problem.risk.seed, wanted)));
+  return {};
+}
+
 }  // namespace
 
-Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
-                                         const std::vector<planner::Waypoint>& places,
-                                         const DriveAssumptions& drive, Progress& progress,
-                                         const std::optional<dem::Extent>& window) const {
+std::shared_ptr<const Catalogue> catalogue_for(const Service& service, const DriveAssumptions& drive,
+                                               std::string& rover, std::vector<Fault>& faults) {
+  std::shared_ptr<const Catalogue> catalogue = catalogue_of(service, drive.model, rover, faults);
+  if (drive.beliefs.empty() || has_fault_under(faults, "/beliefs")) return catalogue;
+  auto with = with_soils(*catalogue, drive.beliefs);
+  if (!with) {
+    for (const Fault& fault : with.error().faults) faults.push_back(fault);
+    return catalogue;
+  }
+  return std::make_shared<const Catalogue>(*std::move(with));
+}
+
+Result<DriveSetting> set_up(const Service& service, const std::string& terrain, const std::string& rover,
+                            const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
+                            Progress& progress, const std::optional<dem::Extent>& window) {
   std::vector<Fault> faults;
   std::string driven_name = rover;
-  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive, driven_name, faults);
+  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(service, drive, driven_name, faults);
   RequestCheck check(*catalogue, std::move(faults));
   check.names(terrain, driven_name);
   check.drive(drive);
@@ -129,7 +179,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
       window ? *window : window_around(places_to_read(site, drive, places), site.info().geometry), legend);
   if (!ground) return fail(ground.error());
 
-  Setting setting;
+  DriveSetting setting;
   setting.site = found;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
@@ -151,7 +201,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.risk.bars = drive.bars;
   if (drive.relief)
     problem.risk.relief = relief_spread(site.description().relief, *drive.relief, legend, ground->soil_map);
-  problem.threads = options_.threads;
+  problem.threads = service.options().threads;
 
   setting.provenance = provenance_of(site, legend, problem, drive.seed);
   setting.provenance.relief = problem.risk.relief;
@@ -162,8 +212,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     past.risk.draws = drive.draws.value_or(kWeighedDraws);
     const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
     auto evidence =
-        conditioned_ground_.get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
-                                {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted, progress);
+        service.conditioned_ground().get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
+                                         {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted, progress);
     if (!evidence) return fail(evidence.error());
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
@@ -172,25 +222,6 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   if (drive.drive_so_far)
     if (auto learnt = learn(drive, progress, setting); !learnt) return fail(learnt.error());
   return setting;
-}
-
-Result<void> Service::learn(const DriveAssumptions& drive, Progress& progress, Setting& setting) {
-  progress.report("conditioning the ground on the drive so far", 0.0);
-  planner::PlanProblem& problem = setting.problem;
-  std::vector<sim::ConditionedDraw> draws;
-  if (problem.risk.conditioned)
-    draws = *problem.risk.conditioned;
-  else
-    draws.resize(
-        static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
-  auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
-  if (!stretches) return fail(stretches.error());
-  setting.provenance.learnt =
-      LearntDrive{std::move(*stretches), static_cast<int>(draws.size()), sim::effective_draws(draws)};
-  const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
-  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(
-      sim::renewed(draws, wanted, random_key(problem.risk.seed, wanted)));
-  return {};
 }
 
 }  // namespace slipway::api

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-#include "api/jobs/memory_job_store.h"
 #include "api/jobs/postgres_connection.h"
 #include "api/jobs/postgres_job_store.h"
 
@@ -13,7 +12,6 @@ bool is_database(std::string_view place) {
 }
 
 Result<std::unique_ptr<JobStore>> open_job_store(const std::string& place, StoreCheck how_far) {
-  if (place.empty()) return make_memory_job_store();
   if (is_database(place)) return open_postgres_job_store(place);
   return open_sqlite_job_store(place, how_far);
 }

@@ -87,7 +87,7 @@ double SqliteStatement::real(int column) const {
 SqliteConnection::SqliteConnection(const std::filesystem::path& path, CommitKind kind) {
   sqlite3* database = nullptr;
   constexpr int kFlags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-  const int code = sqlite3_open_v2(path.c_str(), &database, kFlags, nullptr);
+  const int code = sqlite3_open_v2(path.empty() ? ":memory:" : path.c_str(), &database, kFlags, nullptr);
   database_.reset(database);  // there is one to close even when opening failed
   if (code != SQLITE_OK) {
     throw SqliteFailure(

@@ -73,7 +73,8 @@ class SqliteStatement {
 };
 
 // A connection to a database in WAL mode, whose deleted pages can be given back to the disk (PRAGMA
-// incremental_vacuum). Used by one thread at a time.
+// incremental_vacuum). Where the path is empty the database is in memory, has no log and is this connection's
+// alone. Used by one thread at a time.
 class SqliteConnection {
  public:
   SqliteConnection(const std::filesystem::path& path, CommitKind kind);

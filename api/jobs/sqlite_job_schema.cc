@@ -244,7 +244,7 @@ void end_leases_of_other_boots(SqliteConnection& connection) {
 void check_marker(const fs::path& store) {
   std::error_code ignored;
   const fs::path marker = marker_of(store);
-  if (!fs::exists(marker, ignored)) return;
+  if (store.empty() || !fs::exists(marker, ignored)) return;
   if (fs::exists(store, ignored) && fs::file_size(store, ignored) > 0) return;
   refuse(store, "is missing or empty, but its marker shows that there was one",
          fmt::format("put the store back, or remove {} to begin an empty one", marker.string()));
@@ -279,7 +279,7 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
   } catch (const SqliteDamage& damage) {
     refuse(store, fmt::format("can't be read ({})", damage.what()), kMoveAway);
   }
-  if (std::error_code ignored; fs::exists(marker_of(store), ignored)) return;
+  if (std::error_code ignored; store.empty() || fs::exists(marker_of(store), ignored)) return;
   const std::string words = fmt::format(
       "Beside this file stands a job store, {}. Without it the store would be taken for a new one.\n",
       store.filename().string());

@@ -8,7 +8,7 @@
 namespace slipway::api {
 
 // Before a store is opened: a store whose marker file is there has not vanished. Throws SqliteFailure with
-// the file and what to do.
+// the file and what to do. A store in memory, whose path is empty, has none.
 void check_marker(const std::filesystem::path& store);
 
 // Makes the tables of an empty store; checks those of another, and brings an older one to this version after

@@ -42,9 +42,7 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
 class SqliteJobStore final : public JobStore {
  public:
   SqliteJobStore(const std::filesystem::path& path, StoreCheck how_far)
-      : durable_(path, CommitKind::kDurable),
-        quick_(path, CommitKind::kQuick),
-        reader_(path, CommitKind::kQuick) {
+      : durable_(path, CommitKind::kDurable), second_(quick_to(path)), third_(quick_to(path)) {
     settle_schema(durable_, path, how_far);
   }
 
@@ -356,11 +354,18 @@ class SqliteJobStore final : public JobStore {
     return accepted_job(wanted, pending.now);
   }
 
-  std::mutex write_mutex_;  // durable_, quick_: SQLite has one writer at a time anyway
+  // Nothing for a database in memory, which is that of its first connection alone: it serves for all.
+  static std::unique_ptr<SqliteConnection> quick_to(const std::filesystem::path& path) {
+    return path.empty() ? nullptr : std::make_unique<SqliteConnection>(path, CommitKind::kQuick);
+  }
+
   SqliteConnection durable_;
-  SqliteConnection quick_;
-  std::mutex read_mutex_;  // pollers do not wait for the disk
-  SqliteConnection reader_;
+  const std::unique_ptr<SqliteConnection> second_, third_;
+  SqliteConnection& quick_ = second_ ? *second_ : durable_;
+  SqliteConnection& reader_ = third_ ? *third_ : durable_;
+  std::mutex write_mutex_;  // durable_, quick_: SQLite has one writer at a time anyway
+  std::mutex third_mutex_;
+  std::mutex& read_mutex_ = third_ ? third_mutex_ : write_mutex_;  // pollers do not wait for the disk
 
   std::mutex append_mutex_;
   std::condition_variable appended_;

@@ -8,6 +8,7 @@
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/openapi.h"
+#include "api/service_map.h"
 #include "api/wheel_sweep.h"
 #include "server/routes/comparison_routes.h"
 #include "server/routes/job_routes.h"
@@ -43,7 +44,7 @@ HttpResponse ground_at(const api::Service& service, const HttpRequest& request) 
   const double x_m = query.required_number("x_m");
   const double y_m = query.required_number("y_m");
   if (const auto error = query.error()) return problem_response(*error, &request);
-  const auto at = service.ground_at(request.parameter("name"), x_m, y_m);
+  const auto at = api::ground_at(service, request.parameter("name"), x_m, y_m);
   return at ? document(api::json::write_ground_at(*at)) : problem_response(at.error(), &request);
 }
 
@@ -61,7 +62,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/rules", api::json::write_rules(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
-      fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
+      fixed("/v1/planners", api::json::write_planners(service.options().planners, service.options().costs)),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },

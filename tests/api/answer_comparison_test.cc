@@ -7,6 +7,7 @@
 #include "api/documents/plan_answer.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -19,12 +20,13 @@ using json::text;
 
 std::string planned(const std::string& members) {
   const Service& service = testing::small_world();
-  const auto read = service.read_plan(
+  const auto read = read_plan(
+      service,
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":30,"y_m":34},"routes":2,"draws":2)" +
-      members + "}");
+          members + "}");
   EXPECT_TRUE(read);
   NoProgress progress;
-  const auto plan = service.plan(*read, progress);
+  const auto plan = run_plan(service, *read, progress);
   EXPECT_TRUE(plan) << plan.error().detail;
   return json::write_plan_answer(*plan);
 }
@@ -92,12 +94,13 @@ TEST(CompareAnswers, ChecksAreComparedWithTheIntervalsOfTheirStopsAndEmbeddings)
   const Service& service = testing::small_world();
   const auto checked = [&](const char* more) {
     NoProgress progress;
-    const auto read = service.read_check(
+    const auto read = read_check(
+        service,
         std::string(
             R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":4)") +
-        more + "}");
+            more + "}");
     EXPECT_TRUE(read);
-    return json::write_check_answer(*service.check(*read, progress));
+    return json::write_check_answer(*run_check(service, *read, progress));
   };
   const auto document =
       json::parse(*json::compare_answers(checked(""), checked(R"(,"limits":{"max_slip":0.01})"), {}));

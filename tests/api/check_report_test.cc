@@ -12,6 +12,7 @@
 #include "api/export/station_csv.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -21,10 +22,10 @@ using json::JsonValue;
 
 std::string answered(const std::string& members) {
   const Service& service = testing::small_world();
-  const auto read = service.read_check(R"({"terrain":"yard","rover":"mer-class",)" + members + "}");
+  const auto read = read_check(service, R"({"terrain":"yard","rover":"mer-class",)" + members + "}");
   EXPECT_TRUE(read) << read.error().detail;
   NoProgress progress;
-  const auto answer = service.check(*read, progress);
+  const auto answer = run_check(service, *read, progress);
   EXPECT_TRUE(answer) << answer.error().detail;
   return json::write_check_answer(*answer);
 }
@@ -122,11 +123,12 @@ TEST(StationCsv, HasARowAStationWithTheDocumentsFiguresAndTheEnergyUpToThere) {
 
 TEST(StationCsv, OfAPlanBeginsWithTheRank) {
   const Service& service = testing::small_world();
-  const auto read = service.read_plan(
+  const auto read = read_plan(
+      service,
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":30,"y_m":34},"routes":2,"draws":2})");
   ASSERT_TRUE(read);
   NoProgress progress;
-  const auto plan = service.plan(*read, progress);
+  const auto plan = run_plan(service, *read, progress);
   ASSERT_TRUE(plan) << plan.error().detail;
   const std::string answer = json::write_plan_answer(*plan);
   const auto rows = rows_of(*json::station_csv(answer));

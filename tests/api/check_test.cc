@@ -9,6 +9,7 @@
 #include "api/files/drive_outcomes.h"
 #include "api/ground_evidence.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "planner/judge/drive_verdict.h"
 #include "small_world.h"
 #include "yard_requests.h"
@@ -124,11 +125,11 @@ TEST(CheckRequest, AreasThatAreOffTheMapBecauseTheirCornersAreSwappedAreRefused)
 }
 
 TEST(Check, TheSameRequestGivesTheSameBytes) {
-  const auto read = testing::small_world().read_check(kMer.with(kPath));
+  const auto read = read_check(testing::small_world(), kMer.with(kPath));
   ASSERT_TRUE(read);
   NoProgress progress;
-  EXPECT_EQ(json::write_check_answer(testing::small_world().check(*read, progress).value()),
-            json::write_check_answer(testing::small_world().check(*read, progress).value()));
+  EXPECT_EQ(json::write_check_answer(run_check(testing::small_world(), *read, progress).value()),
+            json::write_check_answer(run_check(testing::small_world(), *read, progress).value()));
 }
 
 TEST(Check, EveryFaultIsNamed) {

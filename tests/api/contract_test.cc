@@ -11,9 +11,10 @@
 #include "api/documents/plan_answer.h"
 #include "api/documents/soil/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/openapi.h"
+#include "api/service_diagnoses.h"
 #include "api/wheel_sweep.h"
 #include "made_diagnosis.h"
 #include "small_world.h"
@@ -153,7 +154,7 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
 }
 
 TEST(Contract, ASoilEstimateFitsTheDescription) {
-  const auto request = small_world().read_soil_estimate(R"({"plate_tests":[{"plate_radius_m":0.05,
+  const auto request = read_soil_estimate(small_world(), R"({"plate_tests":[{"plate_radius_m":0.05,
     "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
   ASSERT_TRUE(request) << request.error().detail;
   const std::string document = answer_to("soil_estimate", R"({"plate_tests":[{"plate_radius_m":0.05,
@@ -286,7 +287,7 @@ TEST(Contract, APathThroughAHoleNamesTheCorner) {
 }
 
 TEST(Contract, DismissingAPlanStopsThePlannersWithinTwoSeconds) {
-  JobRunner runner(make_memory_job_store(), service_work(small_world()));
+  JobRunner runner(open_job_store("").value(), service_work(small_world()));
   ASSERT_TRUE(runner.start());
   const auto job = runner.submit("plan", example("plan_shortest.json"));
   ASSERT_TRUE(job);

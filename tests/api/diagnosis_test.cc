@@ -19,6 +19,7 @@
 #include "api/json/text_place.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
+#include "api/service_diagnoses.h"
 #include "made_diagnosis.h"
 #include "sim/effects/effect_catalogue.h"
 #include "small_world.h"
@@ -352,7 +353,7 @@ TEST(DriveCampaigns, AreListedAsRequestsNameThem) {
   ASSERT_FALSE(list.find("campaigns")->elements.empty());
   for (const JsonValue& campaign : list.find("campaigns")->elements) {
     const std::string& name = campaign.find("name")->text;
-    EXPECT_TRUE((*service)->read_diagnosis("{\"campaign\":\"" + name + "\"}")) << name;
+    EXPECT_TRUE(read_diagnosis(**service, "{\"campaign\":\"" + name + "\"}")) << name;
     if (name != "p05") continue;
     EXPECT_EQ(campaign.find("rover")->text, "mer-class");
     EXPECT_EQ(campaign.find("drives")->elements.size(), 44U);
@@ -363,25 +364,25 @@ TEST(DriveCampaigns, AreListedAsRequestsNameThem) {
 }
 
 TEST(DiagnosisRequest, IsOfDrivesThatShip) {
-  const auto request = testing::small_world().read_diagnosis(R"({"campaign":"p05"})");
+  const auto request = read_diagnosis(testing::small_world(), R"({"campaign":"p05"})");
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().faults.at(0).pointer, "/campaign");
   const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
   ASSERT_TRUE(service);
-  EXPECT_TRUE((*service)->read_diagnosis(testing::example("diagnosis_practice.json")));
+  EXPECT_TRUE(read_diagnosis(**service, testing::example("diagnosis_practice.json")));
   for (const char* campaign : {"../gap-practice/p05", "/etc", ".", "p99", ""})
-    EXPECT_FALSE((*service)->read_diagnosis("{\"campaign\":\"" + std::string(campaign) + "\"}")) << campaign;
+    EXPECT_FALSE(read_diagnosis(**service, "{\"campaign\":\"" + std::string(campaign) + "\"}")) << campaign;
 }
 
 TEST(DiagnosisRequest, MayNameOtherDrivesAsItsReference) {
   const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
   ASSERT_TRUE(service);
-  const auto request = (*service)->read_diagnosis(R"({"campaign":"p05","reference":"p01"})");
+  const auto request = read_diagnosis(**service, R"({"campaign":"p05","reference":"p01"})");
   ASSERT_TRUE(request);
   EXPECT_EQ(request->reference, "p01");
   for (const char* reference : {"p99", "p05", "../p01"}) {
     const auto refused =
-        (*service)->read_diagnosis(R"({"campaign":"p05","reference":")" + std::string(reference) + "\"}");
+        read_diagnosis(**service, R"({"campaign":"p05","reference":")" + std::string(reference) + "\"}");
     ASSERT_FALSE(refused) << reference;
     EXPECT_EQ(refused.error().faults.at(0).pointer, "/reference") << reference;
   }

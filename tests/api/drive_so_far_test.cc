@@ -6,6 +6,7 @@
 #include "api/documents/plan_answer.h"
 #include "api/files/telemetry_csv.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 #include "yard_requests.h"
 
@@ -76,12 +77,13 @@ TEST(DriveSoFar, TheRestBeginsWhereTheRoverIs) {
   EXPECT_NEAR(given->find("summary")->find("length_m")->number, 4.0, 0.01);
   EXPECT_EQ(kMsl.faults_of(R"("commands":[{"drive_m":2}],)" + drive_with_slip(0.1)),
             std::vector<std::string>{"/start"});
-  const auto plan = testing::small_world().read_plan(
-      kMsl.with(R"("goal":{"x_m":24,"y_m":30},"draws":8,"routes":1,)" + drive_with_slip(0.1)));
+  const auto plan =
+      read_plan(testing::small_world(),
+                kMsl.with(R"("goal":{"x_m":24,"y_m":30},"draws":8,"routes":1,)" + drive_with_slip(0.1)));
   ASSERT_TRUE(plan) << plan.error().detail;
   EXPECT_EQ(plan->start.x_m, 16.0);
   NoProgress progress;
-  const auto answer = testing::small_world().plan(*plan, progress);
+  const auto answer = run_plan(testing::small_world(), *plan, progress);
   ASSERT_TRUE(answer) << answer.error().detail;
   const auto document = json::parse(json::write_plan_answer(*answer));
   ASSERT_TRUE(document);

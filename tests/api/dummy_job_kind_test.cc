@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
@@ -80,7 +80,7 @@ class WithDummyKind {
  public:
   explicit WithDummyKind(HeavyRow row) : kinds_(api::job_kinds()) {
     kinds_.push_back(api::job_kind(std::move(row)));
-    runner_ = std::make_unique<api::JobRunner>(api::make_memory_job_store(),
+    runner_ = std::make_unique<api::JobRunner>(api::open_job_store("").value(),
                                                api::service_work(small_world(), kinds_),
                                                api::JobRunnerOptions{.workers = api::worker_kinds(kinds_)});
     HttpOptions options;

@@ -5,6 +5,7 @@
 #include "api/documents/prediction_request.h"
 #include "api/files/rover_file.h"
 #include "api/requests/soil_regions.h"
+#include "api/service_drives.h"
 #include "core/angle.h"
 #include "tests/api/small_world.h"
 
@@ -20,7 +21,7 @@ PredictionRequest path_request() {
 
 sim::DrivePrediction predicted(const PredictionRequest& request) {
   NoProgress progress;
-  const auto answer = small_world().predict(request, progress);
+  const auto answer = run_prediction(small_world(), request, progress);
   EXPECT_TRUE(answer) << (answer ? "" : answer.error().detail);
   return answer->prediction;
 }
@@ -89,7 +90,8 @@ TEST(Effects, ASoilInAPatchHasANameOfItsOwn) {
 }
 
 TEST(Effects, AWheelThatTheRoverDoesNotHaveIsRefusedByItsNumber) {
-  const auto refused = small_world().read_prediction(
+  const auto refused = read_prediction(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],)"
       R"("effects":[{"name":"dragging_wheel","parameters":{"wheel":6}}]})");
   ASSERT_FALSE(refused);
@@ -106,7 +108,8 @@ TEST(Effects, AColdMotorDrawsOtherCurrentAndATemperatureThatNothingReadsIsRefuse
   EXPECT_EQ(predicted(request).energy_j, plain) << "without a temperature the motors are as they are given";
   request.drive.conditions.motor_temp_c = -60.0;
   EXPECT_NE(predicted(request).energy_j, plain);
-  const auto refused = small_world().read_prediction(
+  const auto refused = read_prediction(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],"motor_temp_c":-60})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().faults[0].pointer, "/motor_temp_c");

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <new>
 
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
 #include "api/json/problem_document.h"
 #include "core/utc.h"
@@ -47,7 +47,7 @@ void wait_until(const std::function<bool()>& condition) {
 }
 
 TEST(JobRunner, RunsAJobToItsAnswer) {
-  JobRunner runner(make_memory_job_store(), echo);
+  JobRunner runner(open_job_store("").value(), echo);
   ASSERT_TRUE(runner.start());
   const auto job = runner.submit("plan", "{}");
   ASSERT_TRUE(job);
@@ -57,7 +57,7 @@ TEST(JobRunner, RunsAJobToItsAnswer) {
 }
 
 TEST(JobRunner, AFailureAndABrokenPromiseAreProblems) {
-  JobRunner runner(make_memory_job_store(), [](const std::string&, const std::string& request, Progress&) {
+  JobRunner runner(open_job_store("").value(), [](const std::string&, const std::string& request, Progress&) {
     if (request == "throw") throw std::logic_error("broken");
     return Result<std::string>(fail(ErrorCode::kNoData, "hole", {{"/path/1", "m"}}));
   });
@@ -74,7 +74,7 @@ TEST(JobRunner, AFailureAndABrokenPromiseAreProblems) {
 
 TEST(JobRunner, DismissingStopsTheWorkWithinTwoSeconds) {
   Endless endless;
-  JobRunner runner(make_memory_job_store(), std::ref(endless));
+  JobRunner runner(open_job_store("").value(), std::ref(endless));
   ASSERT_TRUE(runner.start());
   const std::string id = runner.submit("plan", "{}")->id;
   wait_until([&] { return endless.begun == 1; });
@@ -89,7 +89,7 @@ TEST(JobRunner, DismissingStopsTheWorkWithinTwoSeconds) {
 TEST(JobRunner, AnAnswerThatComesAfterTheDismissalIsNeverShown) {
   std::promise<void> begun;
   std::promise<void> go_on;
-  JobRunner runner(make_memory_job_store(), [&](const std::string&, const std::string&, Progress&) {
+  JobRunner runner(open_job_store("").value(), [&](const std::string&, const std::string&, Progress&) {
     begun.set_value();
     go_on.get_future().wait();  // deaf to cancelled()
     return Result<std::string>("late");
@@ -106,7 +106,7 @@ TEST(JobRunner, AnAnswerThatComesAfterTheDismissalIsNeverShown) {
 
 TEST(JobRunner, ADismissalWakesWhoWaits) {
   Endless endless;
-  JobRunner runner(make_memory_job_store(), std::ref(endless));
+  JobRunner runner(open_job_store("").value(), std::ref(endless));
   ASSERT_TRUE(runner.start());
   const std::string id = runner.submit("plan", "{}")->id;
   auto waiting = std::async(std::launch::async, [&] { return runner.wait(id, seconds(20)); });
@@ -121,7 +121,7 @@ TEST(JobRunner, ShortWorkDoesNotWaitBehindLongWork) {
   JobRunnerOptions options;
   options.workers = {{"plan", "prediction"}, {"prediction"}};
   JobRunner runner(
-      make_memory_job_store(),
+      open_job_store("").value(),
       [&](const std::string& kind, const std::string& request, Progress& p) {
         return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
       },
@@ -136,7 +136,7 @@ TEST(JobRunner, RefusesJobsWhenTheQueueIsFull) {
   Endless endless;
   JobRunnerOptions options;
   options.admission.most_unfinished = 2;
-  JobRunner runner(make_memory_job_store(), std::ref(endless), options);
+  JobRunner runner(open_job_store("").value(), std::ref(endless), options);
   ASSERT_TRUE(runner.start());
   ASSERT_TRUE(runner.submit("plan", "{}"));
   ASSERT_TRUE(runner.submit("plan", "{}"));
@@ -163,7 +163,7 @@ TEST(JobRunner, WhatWasAcceptedOrRunningRunsAfterARestart) {
 }
 
 TEST(JobRunner, AJobOfADeadProcessIsTakenUpThoughItsLeaseStillRuns) {
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, now_ms(), {10}));
   const std::string id = store->claim("slipway", {"plan"}, now_ms(), now_ms() + 3'600'000).value()->job.id;
   JobRunner runner(store, echo);
@@ -172,7 +172,7 @@ TEST(JobRunner, AJobOfADeadProcessIsTakenUpThoughItsLeaseStillRuns) {
 }
 
 TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
   JobRunnerOptions options;
   for (int i = 0; i < options.most_deaths; ++i) {
@@ -190,7 +190,7 @@ TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
 }
 
 TEST(JobRunner, AJobIsNotBlamedForStopsOfTheService) {
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
   Endless endless;
   for (int k = 1; k <= 2 * JobRunnerOptions{}.most_deaths; ++k) {
@@ -211,7 +211,7 @@ TEST(JobRunner, WorkThatAsksKeepsItsLease) {
   options.workers = {{"plan"}, {"plan"}};
   options.lease = milliseconds(300);
   options.idle_poll = milliseconds(50);
-  JobRunner runner(make_memory_job_store(), std::ref(endless), options);
+  JobRunner runner(open_job_store("").value(), std::ref(endless), options);
   ASSERT_TRUE(runner.start());
   const std::string id = runner.submit("plan", "{}")->id;
   std::this_thread::sleep_for(milliseconds(1000));
@@ -229,9 +229,9 @@ TEST(JobRunner, WorkThatTakesTooLongOrTooMuchFailsWithTheReason) {
     EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kFailed);
     return json::read_problem(*runner.store().outcome(id).value());
   };
-  JobRunner slow(make_memory_job_store(), std::ref(endless), options);
+  JobRunner slow(open_job_store("").value(), std::ref(endless), options);
   EXPECT_EQ(problem_of(slow).code, ErrorCode::kJobTooLarge);
-  JobRunner large(make_memory_job_store(),
+  JobRunner large(open_job_store("").value(),
                   [](const std::string&, const std::string&, Progress&) -> Result<std::string> {
                     throw std::bad_alloc();
                   });
@@ -240,7 +240,7 @@ TEST(JobRunner, WorkThatTakesTooLongOrTooMuchFailsWithTheReason) {
 
 TEST(JobRunner, SilentWorkIsSeen) {
   std::atomic<bool> enough{false};
-  JobRunner runner(make_memory_job_store(), [&](const std::string&, const std::string&, Progress&) {
+  JobRunner runner(open_job_store("").value(), [&](const std::string&, const std::string&, Progress&) {
     while (!enough) std::this_thread::sleep_for(milliseconds(5));
     return Result<std::string>("answer");
   });
@@ -267,7 +267,7 @@ WorkInParts in_parts(int count, std::function<Result<JobAnswer>(int, Progress&)>
 
 TEST(JobRunner, ShortPartsAreTakenTogetherAndWhatIsNotBegunIsGivenBack) {
   constexpr int kParts = 200, kSlow = 150;
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   JobRunnerOptions options;
   options.batch_time = milliseconds(200);
   std::atomic<int> most_held{0};
@@ -306,7 +306,7 @@ TEST(JobRunner, ShortPartsAreTakenTogetherAndWhatIsNotBegunIsGivenBack) {
 
 TEST(JobRunner, APartThatKillsItsWorkerFailsWithItsReasonAndNoOtherDoes) {
   constexpr int kParts = 64, kPoison = 17;
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   std::string id;
   // The work stops there for ever, as the process does; the next one finds what it held.
   for (int life = 1; life <= 20; ++life) {
@@ -346,7 +346,7 @@ TEST(JobRunner, APartThatKillsItsWorkerFailsWithItsReasonAndNoOtherDoes) {
 // Two runners on one store, as a service and its worker process are.
 struct ServiceAndWorker {
   explicit ServiceAndWorker(JobWork work)
-      : store(make_memory_job_store()),
+      : store(open_job_store("").value()),
         service(store, nullptr, not_here()),
         worker(store, std::move(work), named()) {}
 
@@ -392,7 +392,7 @@ TEST(JobRunner, OfAnotherProcessNeedsNoBell) {
 }
 
 TEST(JobRunner, AServiceWithWorkersBlamesNoJobForItsOwnDeath) {
-  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::shared_ptr<JobStore> store = open_job_store("").value();
   const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
   for (int k = 0; k < 2 * JobRunnerOptions{}.most_deaths; ++k) {
     ASSERT_TRUE(store->claim("slipway/" + std::to_string(k), {}, now_ms(), now_ms() + 60'000).value());

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "api/jobs/memory_job_store.h"
 #include "api/jobs/postgres_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
 #include "postgres_schema.h"
@@ -28,16 +27,14 @@ struct Divided {
 class JobStoreTest : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (GetParam() == "memory") {
-      store_ = make_memory_job_store();
-    } else if (GetParam() == "postgresql") {
+    if (GetParam() == "postgresql") {
       schema_ = PostgresSchema::make();
       if (!schema_) GTEST_SKIP() << kNoPostgres;
       auto opened = open_postgres_job_store(schema_->address());
       ASSERT_TRUE(opened) << opened.error().detail;
       store_ = std::move(*opened);
     } else {
-      auto opened = open_sqlite_job_store(folder_.path() / "jobs.sqlite");
+      auto opened = open_sqlite_job_store(GetParam() == "memory" ? "" : folder_.path() / "jobs.sqlite");
       ASSERT_TRUE(opened) << opened.error().detail;
       store_ = std::move(*opened);
     }

@@ -12,8 +12,9 @@
 #include "api/files/corrected_model.h"
 #include "api/files/model_folder.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/model_reference.h"
+#include "api/service_drives.h"
 #include "made_diagnosis.h"
 #include "small_world.h"
 
@@ -50,20 +51,20 @@ class ANamedModel : public ::testing::Test {
   }
   Result<std::string> recorded(const std::string& request) {
     return recordable_request(request, *store_, [](std::string_view body) -> std::optional<Error> {
-      const auto reading = small_world().read_prediction(body);
+      const auto reading = read_prediction(small_world(), body);
       return reading ? std::nullopt : std::optional<Error>(reading.error());
     });
   }
   static std::string predicted(const Service& service, const std::string& request) {
     NoProgress progress;
-    const auto reading = service.read_prediction(request);
+    const auto reading = read_prediction(service, request);
     EXPECT_TRUE(reading) << (reading ? "" : reading.error().detail);
-    const auto answer = service.predict(*reading, progress);
+    const auto answer = run_prediction(service, *reading, progress);
     EXPECT_TRUE(answer);
     return json::write_prediction_answer(*answer);
   }
 
-  std::unique_ptr<JobStore> store_ = make_memory_job_store();
+  std::unique_ptr<JobStore> store_ = open_job_store("").value();
 };
 
 TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
@@ -71,7 +72,7 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
   add("d1", kDiagnosisKind, document(diagnosis));
   const auto request = recorded(request_with(naming("d1", R"(,"ground":["mer_b_sandy_loam"])")));
   ASSERT_TRUE(request) << request.error().detail;
-  store_ = make_memory_job_store();
+  store_ = open_job_store("").value();
 
   // As the command line plans with the folder of the same model.
   const testing::ScratchFolder folder;
@@ -173,7 +174,7 @@ TEST_F(ANamedModel, IsNamedAndNotGiven) {
   const auto whole = recorded(request_with(naming("d1")));
   ASSERT_TRUE(whole);
   EXPECT_FALSE(recorded(*whole));
-  const auto alone = small_world().read_prediction(request_with(naming("d1")));
+  const auto alone = read_prediction(small_world(), request_with(naming("d1")));
   ASSERT_FALSE(alone);
   EXPECT_EQ(alone.error().faults.at(0).pointer, "/model/diagnosis");
 }

@@ -9,10 +9,11 @@
 #include "api/documents/drive_commands.h"
 #include "api/documents/plan_answer.h"
 #include "api/job_kinds.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 #include "api/plan_reference.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -33,16 +34,16 @@ JsonValue parsed(const std::string& bytes) {
 
 std::string planned(const Service& service, const std::string& request) {
   NoProgress progress;
-  const auto read = service.read_plan(request);
+  const auto read = read_plan(service, request);
   EXPECT_TRUE(read) << (read ? "" : read.error().detail);
-  return json::write_plan_answer(service.plan(*read, progress).value());
+  return json::write_plan_answer(run_plan(service, *read, progress).value());
 }
 
 std::string checked(const Service& service, const std::string& request) {
   NoProgress progress;
-  const auto read = service.read_check(request);
+  const auto read = read_check(service, request);
   EXPECT_TRUE(read) << (read ? "" : read.error().detail);
-  return json::write_check_answer(service.check(*read, progress).value());
+  return json::write_check_answer(run_check(service, *read, progress).value());
 }
 
 // Every figure that a check of the route's commands has is the plan's.
@@ -121,7 +122,7 @@ class APlanOfAJob : public ::testing::Test {
     return request ? "" : request.error().faults.at(0).pointer;
   }
 
-  std::unique_ptr<JobStore> store_ = make_memory_job_store();
+  std::unique_ptr<JobStore> store_ = open_job_store("").value();
 };
 
 TEST_F(APlanOfAJob, IsCheckedByItsName) {
@@ -151,7 +152,8 @@ TEST_F(APlanOfAJob, ThatIsNoneOrHasNoSuchRouteIsRefusedAtItsPlace) {
 }
 
 TEST(PlanCommands, APlanToTheSamePlaceIsRefusedAndNamesBoth) {
-  const auto read = testing::small_world().read_plan(
+  const auto read = read_plan(
+      testing::small_world(),
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":20,"y_m":30}})");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kInvalidRequest);

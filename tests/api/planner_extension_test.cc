@@ -10,6 +10,7 @@
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/plan_answer.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -74,10 +75,10 @@ std::string request_with(const std::string& members) {
 }
 
 JsonValue answer_of(const Service& service, const std::string& request) {
-  const auto read = service.read_plan(request);
+  const auto read = read_plan(service, request);
   EXPECT_TRUE(read) << read.error().detail;
   NoProgress progress;
-  const auto answer = service.plan(read.value(), progress);
+  const auto answer = run_plan(service, read.value(), progress);
   EXPECT_TRUE(answer) << answer.error().detail;
   return json::parse(json::write_plan_answer(answer.value())).value();
 }
@@ -120,19 +121,21 @@ TEST(AddedCost, ActsFromTheRequestsWeightsToTheRoutesThatAreSearchedAndTheirShar
 }
 
 TEST(AddedCost, IsReadAsStrictlyAsTheOthersAndListed) {
-  const auto over = extended_world().read_plan(request_with(R"(,"weights":{"turning":51})"));
+  const auto over = read_plan(extended_world(), request_with(R"(,"weights":{"turning":51})"));
   ASSERT_FALSE(over);
   EXPECT_EQ(over.error().faults.at(0).pointer, "/weights/turning");
-  EXPECT_FALSE(testing::small_world().read_plan(request_with(R"(,"weights":{"turning":5})")));
-  const std::string listed = json::write_planners(extended_world().planners(), extended_world().costs());
+  EXPECT_FALSE(read_plan(testing::small_world(), request_with(R"(,"weights":{"turning":5})")));
+  const std::string listed =
+      json::write_planners(extended_world().options().planners, extended_world().options().costs);
   EXPECT_NE(listed.find(R"("name":"turning")"), std::string::npos);
   EXPECT_EQ(json::write_planners().find(R"("name":"turning")"), std::string::npos);
 }
 
 TEST(AddedPlanner, IsListedAndReadByTheServiceThatHasIt) {
-  EXPECT_TRUE(extended_world().read_plan(request_with(R"(,"planners":["beeline"])")));
-  EXPECT_FALSE(testing::small_world().read_plan(request_with(R"(,"planners":["beeline"])")));
-  const std::string listed = json::write_planners(extended_world().planners(), extended_world().costs());
+  EXPECT_TRUE(read_plan(extended_world(), request_with(R"(,"planners":["beeline"])")));
+  EXPECT_FALSE(read_plan(testing::small_world(), request_with(R"(,"planners":["beeline"])")));
+  const std::string listed =
+      json::write_planners(extended_world().options().planners, extended_world().options().costs);
   EXPECT_NE(listed.find(R"("name":"beeline")"), std::string::npos);
 }
 

@@ -2,6 +2,8 @@
 
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
+#include "api/service_drives.h"
+#include "api/service_map.h"
 #include "core/angle.h"
 #include "small_world.h"
 
@@ -24,7 +26,7 @@ std::string plan_with(const std::string& members) {
 }
 
 TEST(PlanRequest, DefaultsAreThoseOfTheRoomsBelow) {
-  const auto request = small_world().read_plan(example("plan_shortest.json"));
+  const auto request = read_plan(small_world(), example("plan_shortest.json"));
   ASSERT_TRUE(request);
   EXPECT_EQ(request->drive.limits.max_slip_ratio, sim::DriveLimits{}.max_slip_ratio);
   EXPECT_EQ(request->weights.of("slip"), planner::Weights().of("slip"));
@@ -34,7 +36,7 @@ TEST(PlanRequest, DefaultsAreThoseOfTheRoomsBelow) {
 }
 
 TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
-  const auto request = small_world().read_plan(example("plan_every_key.json"));
+  const auto request = read_plan(small_world(), example("plan_every_key.json"));
   ASSERT_TRUE(request) << request.error().detail;
   EXPECT_DOUBLE_EQ(*request->goal.yaw_rad, rad_from_deg(90.0));
   EXPECT_DOUBLE_EQ(request->drive.limits.max_tilt_rad, rad_from_deg(20.0));
@@ -53,10 +55,10 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
 }
 
 TEST(PlanRequest, RanksByTheMeanUnlessTheCvarIsAskedFor) {
-  const auto plain = small_world().read_plan(plan_with(""));
+  const auto plain = read_plan(small_world(), plan_with(""));
   ASSERT_TRUE(plain) << plain.error().detail;
   EXPECT_EQ(plain->ranking.by, planner::RankBy::kExpected);
-  const auto tail = small_world().read_plan(plan_with(R"(,"ranking":{"by":"cvar"})"));
+  const auto tail = read_plan(small_world(), plan_with(R"(,"ranking":{"by":"cvar"})"));
   ASSERT_TRUE(tail) << tail.error().detail;
   EXPECT_EQ(tail->ranking.by, planner::RankBy::kCvar);
   EXPECT_EQ(tail->ranking.tail, 0.1);
@@ -75,7 +77,7 @@ TEST(PlanRequest, WhatIsEchoedReadsBackAsTheSameRequest) {
 }
 
 TEST(PlanRequest, ARefusalNamesEveryFault) {
-  const auto request = small_world().read_plan(example("plan_refused.json"));
+  const auto request = read_plan(small_world(), example("plan_refused.json"));
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().code, ErrorCode::kInvalidRequest);
   EXPECT_EQ(pointers_of(request.error()),
@@ -93,12 +95,14 @@ TEST(PlanRequest, ARefusalNamesEveryFault) {
 }
 
 TEST(PlanRequest, PlacesOffTheMapAloneAreOffMap) {
-  const auto off = small_world().read_plan(
+  const auto off = read_plan(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":-1,"y_m":30},"goal":{"x_m":45,"y_m":400}})");
   ASSERT_FALSE(off);
   EXPECT_EQ(off.error().code, ErrorCode::kOffMap);
   EXPECT_EQ(off.error().faults.size(), 2U);
-  const auto hole = small_world().read_plan(
+  const auto hole = read_plan(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","start":{"x_m":85,"y_m":45},"goal":{"x_m":45,"y_m":40}})");
   ASSERT_FALSE(hole);
   EXPECT_EQ(hole.error().code, ErrorCode::kNoData);
@@ -145,18 +149,18 @@ TEST(PlanRequest, EachBadMemberIsRefusedAtItsPlace) {
       {R"(,"limits":null)", "/limits"},
       {R"(,"x":1)", "/x"}};
   for (const auto& [members, pointer] : cases) {
-    const auto request = small_world().read_plan(plan_with(members));
+    const auto request = read_plan(small_world(), plan_with(members));
     ASSERT_FALSE(request) << members;
     EXPECT_EQ(pointers_of(request.error()), std::vector<std::string>{pointer}) << members;
   }
 }
 
 TEST(PlanRequest, AFailedWheelThatIsNotKnownIsRefusedWithThoseThatAre) {
-  const auto wheel = small_world().read_plan(plan_with(R"(,"failed_wheels":{"fr":"locked"})"));
+  const auto wheel = read_plan(small_world(), plan_with(R"(,"failed_wheels":{"fr":"locked"})"));
   ASSERT_FALSE(wheel);
   EXPECT_NE(wheel.error().detail.find("unknown wheel \"fr\""), std::string::npos) << wheel.error().detail;
   EXPECT_NE(wheel.error().detail.find("known: lf, lm, lr, rf, rm, rr"), std::string::npos);
-  const auto failure = small_world().read_plan(plan_with(R"(,"failed_wheels":{"rf":"broken"})"));
+  const auto failure = read_plan(small_world(), plan_with(R"(,"failed_wheels":{"rf":"broken"})"));
   ASSERT_FALSE(failure);
   for (const char* known : {"locked", "free", "off"})
     EXPECT_NE(failure.error().detail.find(known), std::string::npos) << failure.error().detail;
@@ -164,9 +168,10 @@ TEST(PlanRequest, AFailedWheelThatIsNotKnownIsRefusedWithThoseThatAre) {
 
 TEST(PredictionRequest, ARoverThatDoesNotSteerDoesNotCrab) {
   const auto asked = [](const std::string& rover, const std::string& crab_deg) {
-    return small_world().read_prediction(R"({"terrain":"yard","rover":")" + rover +
-                                         R"(","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],"crab_deg":)" +
-                                         crab_deg + "}");
+    return read_prediction(
+        small_world(), R"({"terrain":"yard","rover":")" + rover +
+                           R"(","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],"crab_deg":)" + crab_deg +
+                           "}");
   };
   EXPECT_TRUE(asked("mer-class", "30"));
   EXPECT_TRUE(asked("cuadriga", "0"));
@@ -179,18 +184,19 @@ TEST(PredictionRequest, ARoverThatDoesNotSteerDoesNotCrab) {
 }
 
 TEST(PredictionRequest, TheRungIsReadAndEchoed) {
-  const auto request = small_world().read_prediction(example("prediction_dynamic.json"));
+  const auto request = read_prediction(small_world(), example("prediction_dynamic.json"));
   ASSERT_TRUE(request) << request.error().detail;
   EXPECT_EQ(request->level, FidelityLevel::kDynamic);
   EXPECT_EQ(request->drive.failed_wheels.at("lr"), sim::WheelFailure::kOff);
-  const auto plain = small_world().read_prediction(example("prediction_path.json"));
+  const auto plain = read_prediction(small_world(), example("prediction_path.json"));
   ASSERT_TRUE(plain);
   EXPECT_EQ(plain->level, FidelityLevel::kQuasiStatic);
   const std::string echoed = json::write_prediction_request(*request);
   const auto again = json::read_prediction_request(echoed);
   ASSERT_TRUE(again && again->faults.empty());
   EXPECT_EQ(json::write_prediction_request(again->request), echoed);
-  const auto refused = small_world().read_prediction(
+  const auto refused = read_prediction(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":21,"y_m":30}],"rung":"table"})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(pointers_of(refused.error()), std::vector<std::string>{"/rung"});
@@ -198,14 +204,15 @@ TEST(PredictionRequest, TheRungIsReadAndEchoed) {
 
 TEST(PlanRequest, ABodyThatIsNoObjectIsRefusedOnce) {
   for (const char* body : {"[]", "null", "3", "\"plan\""}) {
-    const auto request = small_world().read_plan(body);
+    const auto request = read_plan(small_world(), body);
     ASSERT_FALSE(request);
     EXPECT_EQ(request.error().faults.front().pointer, "");
   }
 }
 
 TEST(PredictionRequest, APathThatLeavesTheTerrainNamesEachCorner) {
-  const auto request = small_world().read_prediction(
+  const auto request = read_prediction(
+      small_world(),
       R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":121,"y_m":30},{"x_m":85,"y_m":45}]})");
   ASSERT_FALSE(request);
   EXPECT_EQ(pointers_of(request.error()), (std::vector<std::string>{"/path/1", "/path/2"}));
@@ -213,7 +220,7 @@ TEST(PredictionRequest, APathThatLeavesTheTerrainNamesEachCorner) {
 
 TEST(PredictionRequest, APathHasTwoCornersAndNotTooMany) {
   const auto read = [](const std::string& path) {
-    return small_world().read_prediction(R"({"terrain":"yard","rover":"mer-class","path":[)" + path + "]}");
+    return read_prediction(small_world(), R"({"terrain":"yard","rover":"mer-class","path":[)" + path + "]}");
   };
   EXPECT_FALSE(read(R"({"x_m":20,"y_m":30})"));
   std::string many = R"({"x_m":20,"y_m":30})";
@@ -233,7 +240,7 @@ TEST(PredictionRequest, WhatIsEchoedReadsBackAsTheSameRequest) {
 }
 
 TEST(GroundAt, KnowsHeightSlopeAndSoil) {
-  const auto at = small_world().ground_at("yard", 20.0, 20.0);
+  const auto at = ground_at(small_world(), "yard", 20.0, 20.0);
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->height_m, 1.0, 0.01);
   EXPECT_NEAR(deg_from_rad(at->slope_rad), 2.86, 0.05);
@@ -241,10 +248,10 @@ TEST(GroundAt, KnowsHeightSlopeAndSoil) {
   EXPECT_EQ(at->soil, "mer_b_sandy_loam");
   EXPECT_EQ(at->label, "firm");
   EXPECT_LT(at->roughness_m.value(), 0.01);
-  EXPECT_EQ(small_world().ground_at("yard", 115.0, 20.0)->soil, std::nullopt);
-  EXPECT_EQ(small_world().ground_at("yard", 85.0, 45.0).error().code, ErrorCode::kNoData);
-  EXPECT_EQ(small_world().ground_at("yard", 1e9, 45.0).error().code, ErrorCode::kOffMap);
-  EXPECT_EQ(small_world().ground_at("../yard", 1.0, 45.0).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(ground_at(small_world(), "yard", 115.0, 20.0)->soil, std::nullopt);
+  EXPECT_EQ(ground_at(small_world(), "yard", 85.0, 45.0).error().code, ErrorCode::kNoData);
+  EXPECT_EQ(ground_at(small_world(), "yard", 1e9, 45.0).error().code, ErrorCode::kOffMap);
+  EXPECT_EQ(ground_at(small_world(), "../yard", 1.0, 45.0).error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace

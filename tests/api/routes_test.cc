@@ -8,7 +8,7 @@
 #include <set>
 #include <thread>
 
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/openapi.h"
 #include "core/version.h"
@@ -29,7 +29,8 @@ using std::chrono::seconds;
 class Routes : public ::testing::Test {
  protected:
   void run(api::JobWork work, RouteOptions options = {}, const api::JobRunnerOptions& runner_options = {}) {
-    runner_ = std::make_unique<api::JobRunner>(api::make_memory_job_store(), std::move(work), runner_options);
+    runner_ =
+        std::make_unique<api::JobRunner>(api::open_job_store("").value(), std::move(work), runner_options);
     table_ = std::make_unique<RouteTable>(api_routes(small_world(), *runner_, options));
     ASSERT_TRUE(runner_->start());
   }

@@ -12,6 +12,7 @@
 #include "api/files/soil_file.h"
 #include "api/json/parse.h"
 #include "api/service.h"
+#include "api/service_drives.h"
 #include "api/wheel_sweep.h"
 #include "tests/api/small_world.h"
 
@@ -85,9 +86,9 @@ double sinkage_of(const Service& service, const std::string& members = "") {
 
 Result<PredictionAnswer> predict(const Service& service, const std::string& request) {
   NoProgress progress;
-  const auto read = service.read_prediction(request);
+  const auto read = read_prediction(service, request);
   if (!read) return fail(read.error());
-  return service.predict(*read, progress);
+  return run_prediction(service, *read, progress);
 }
 
 double mean_slip(const Service& service) {
@@ -250,9 +251,9 @@ TEST(SlipCurveSoil, APredictionHasItsSlipAndNoFiguresOfWheels) {
 TEST(SlipCurveSoil, APlanDrivesOverItAndItsSlipCounts) {
   NoProgress progress;
   const auto plan_on = [&](const Service& service) {
-    const auto request = service.read_plan(example("plan_shortest.json"));
+    const auto request = read_plan(service, example("plan_shortest.json"));
     EXPECT_TRUE(request) << (request ? "" : request.error().detail);
-    return service.plan(*request, progress);
+    return run_plan(service, *request, progress);
   };
   const WorldWithSoil easy(tabulated(0.1)), hard(tabulated(0.5));
   const auto on_easy = plan_on(easy.service()), on_hard = plan_on(hard.service());

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "api/terrain_views/terrain_document.h"
 #include "api/terrain_views/terrain_picture.h"
@@ -157,7 +157,7 @@ class TerrainRoutes : public ::testing::Test {
     return pointers;
   }
 
-  JobRunner runner_{make_memory_job_store(),
+  JobRunner runner_{open_job_store("").value(),
                     [](const std::string&, const std::string&, Progress&) -> Result<std::string> {
                       return fail(ErrorCode::kInternal, "");
                     }};

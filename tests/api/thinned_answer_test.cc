@@ -11,6 +11,7 @@
 #include "api/job_kinds.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/service_drives.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -63,7 +64,7 @@ TEST(ThinnedAnswer, IsSmallAndItsTableIsWhole) {
   NoProgress progress;
   const auto kept = service_work(service)(std::string(kPredictionKind), request, progress);
   ASSERT_TRUE(kept) << kept.error().detail;
-  const auto prediction = service.predict(service.read_prediction(request).value(), progress);
+  const auto prediction = run_prediction(service, read_prediction(service, request).value(), progress);
   ASSERT_TRUE(prediction);
   const std::size_t all = prediction->prediction.stations.size(), most = json::max_stations_shown(1);
   ASSERT_GT(all, most) << "the drive is not long enough for this test";

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "api/continued_request.h"
-#include "api/jobs/memory_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
 #include "drive_campaign_folder.h"
 
@@ -110,7 +110,7 @@ class AContinuedRequest : public ::testing::Test {
     return pointers;
   }
 
-  std::unique_ptr<JobStore> store_ = make_memory_job_store();
+  std::unique_ptr<JobStore> store_ = open_job_store("").value();
 };
 
 TEST_F(AContinuedRequest, IsRecordedWithAllDrivesSoThatTheEarlierJobMayBeForgotten) {

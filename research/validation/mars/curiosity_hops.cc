@@ -5,6 +5,7 @@
 
 #include "api/files/drive_outcomes.h"
 #include "api/service.h"
+#include "api/service_drives.h"
 #include "core/progress.h"
 #include "planner/predict_path.h"
 #include "research/validation/mars/comparisons.h"
@@ -66,7 +67,7 @@ Result<Predicted> predicted(const api::Service& service, const Hop& hop, std::op
   request.drive.as_of_sol = as_of_sol;
   planner::watch_as_past_drives(request.drive.limits, request.drive.checks);
   NoProgress progress;
-  const auto answer = service.check(request, progress);
+  const auto answer = api::run_check(service, request, progress);
   if (!answer) return fail(answer.error());
   Predicted out{answer->prediction.outcomes.embedding, answer->prediction.outcomes.stop.share, {}};
   for (const sim::DrawFigures& draw : answer->prediction.drawn) out.embeds.push_back(draw.embedded);

@@ -7,6 +7,7 @@
 
 #include "api/files/drive_outcomes.h"
 #include "api/service.h"
+#include "api/service_drives.h"
 #include "core/progress.h"
 #include "planner/predict_path.h"
 #include "research/validation/mars/comparisons.h"
@@ -87,7 +88,7 @@ Result<sim::DrivePrediction> checked(const api::Service& service, const std::vec
   request.drive.limits.max_slip_ratio = asked.max_slip;
   planner::watch_as_past_drives(request.drive.limits, request.drive.checks);
   NoProgress progress;
-  auto answer = service.check(request, progress);
+  auto answer = api::run_check(service, request, progress);
   if (!answer) return fail(answer.error());
   return std::move(answer->prediction);
 }

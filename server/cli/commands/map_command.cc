@@ -17,6 +17,7 @@
 #include "api/maps/map_documents.h"
 #include "api/maps/map_layer.h"
 #include "api/service.h"
+#include "api/service_map.h"
 #include "planner/maps/map_kind.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"
@@ -176,7 +177,7 @@ int draw(const MapOptions& options, const fs::path& out) {
   if (!service) return refuse_unreadable(service.error());
   const auto text = request_of(options);
   if (!text) return refuse(text.error());
-  const auto request = (*service)->read_map(*text);
+  const auto request = api::read_map(**service, *text);
   if (!request) return refuse(request.error());
   api::remove_abandoned(out.parent_path(), out.filename().string());
   Unfinished made(api::unfinished_name(out));
@@ -184,7 +185,7 @@ int draw(const MapOptions& options, const fs::path& out) {
   Result<api::MapAnswer> answer;
   {
     TerminalProgress progress;
-    answer = (*service)->map(*request, {.out = made.path(), .part = tiles.path()}, progress);
+    answer = api::run_map(**service, *request, {.out = made.path(), .part = tiles.path()}, progress);
   }
   if (!answer) {
     if (options.resume) tiles.keep();

@@ -18,6 +18,7 @@
 #include "api/report/check_report.h"
 #include "api/report/route_map.h"
 #include "api/service.h"
+#include "api/service_map.h"
 #include "api/wheel_sweep.h"
 #include "server/cli/inquiry/data_folder.h"
 #include "server/http/http_client.h"
@@ -55,11 +56,11 @@ class LocalInquiry final : public Inquiry {
     if (kind == "rovers") return api::json::write_rovers(all);
     if (kind == "soils") return api::json::write_soils(all);
     if (kind == "effects") return api::json::write_effects();
-    return api::json::write_planners(service_->planners(), service_->costs());
+    return api::json::write_planners(service_->options().planners, service_->options().costs);
   }
 
   Result<std::string> ground_at(std::string_view terrain, double x_m, double y_m) override {
-    const auto at = service_->ground_at(terrain, x_m, y_m);
+    const auto at = api::ground_at(*service_, terrain, x_m, y_m);
     if (!at) return fail(at.error());
     return api::json::write_ground_at(*at);
   }

@@ -11,6 +11,7 @@
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/diagnosis/diagnosis_request.h"
 #include "api/documents/prediction_request.h"
+#include "api/service_drives.h"
 #include "gap/diagnosis/model/hypothesis.h"
 #include "gap/diagnosis/model/window_model.h"
 #include "research/benchmark/hidden_effect.h"
@@ -33,7 +34,7 @@ double energy_j(const std::string& request) {
   const auto reading = json::read_prediction_request(request);
   EXPECT_TRUE(reading && reading->faults.empty());
   NoProgress progress;
-  const auto answer = testing::small_world().predict(reading->request, progress);
+  const auto answer = run_prediction(testing::small_world(), reading->request, progress);
   EXPECT_TRUE(answer) << (answer ? "" : answer.error().detail);
   return answer->prediction.energy_j;
 }
@@ -52,7 +53,8 @@ TEST(NewEffect, ChangesThePredictionOfARequestThatSwitchesItOn) {
 }
 
 TEST(NewEffect, IsRefusedBeyondItsRange) {
-  const auto request = testing::small_world().read_prediction(
+  const auto request = read_prediction(
+      testing::small_world(),
       request_with(R"(, "effects": [{"name": "extra_mass", "parameters": {"mass_kg": 900}}])"));
   ASSERT_FALSE(request);
   ASSERT_EQ(request.error().faults.size(), 1U);
