@@ -2104,6 +2104,10 @@ export interface components {
             reason: string;
             /** @description What would change the verdict */
             overturned_by: string;
+            /** @description Whether the best explanation stands with what was believed of soils, closures, motors and the drives' scatter. Where it is false, no effect is named that changes what the ground does to all wheels */
+            model_adequate: boolean;
+            /** @description That beliefs like these contradict drives by so much by chance [1] */
+            conflict_probability: number;
             /** @description What was found */
             effects: {
                 name: string;
@@ -2126,6 +2130,8 @@ export interface components {
                 probability: number;
                 /** @description Of the gap that re-tuning leaves on drives held out of the fit, what goes with it [1] */
                 closed_share: number;
+                /** @description Probability that it is at work, of probability and closed_share as they came true on campaigns with known causes; effects are named by it [1] */
+                calibrated: number;
             }[];
             /** @description Every set that was compared, most probable first; probabilities add up to 1 */
             candidates: {
