@@ -312,12 +312,4 @@ void take_as_recorded(gap::DriveCampaign& campaign) {
         "compared as the wheels' mean");
 }
 
-Result<std::optional<gap::DriveCampaign>> load_reference_drives(const fs::path& folder,
-                                                                const Catalogue& catalogue) {
-  if (folder.empty()) return std::nullopt;
-  auto drives = load_drive_campaign(folder, catalogue);
-  if (!drives) return fail(drives.error());
-  return std::optional<gap::DriveCampaign>(std::move(*drives));
-}
-
 }  // namespace slipway::api
