@@ -42,6 +42,16 @@ Result<gap::DriveCampaign> drives_of(const Service& service, const std::string& 
   return load_uploaded_campaign(*service.uploads(), name, *service.catalogue());
 }
 
+// How effects are searched for, where a request has `without` and `seed`.
+template <class Request>
+gap::DiagnosisOptions search_of(const Request& request, const Service& service) {
+  gap::DiagnosisOptions options;
+  options.search.withheld = request.without;
+  options.search.threads = service.options().threads;
+  options.seed = request.seed;
+  return options;
+}
+
 template <class Request>
 Result<Request> faultless(Reading<Request>& reading) {
   if (reading.faults.empty()) return std::move(reading.request);
@@ -90,18 +100,14 @@ Result<DiagnosisAnswer> run_diagnosis(const Service& service, const DiagnosisReq
   progress.report("reading the drives", 0.0);
   auto campaign = drives_of(service, request.campaign);
   if (!campaign) return fail(campaign.error());
-  gap::DiagnosisOptions options;
-  options.search.withheld = request.without;
-  options.search.threads = service.options().threads;
-  options.seed = request.seed;
-  if (!request.reference.empty()) {
+  Result<gap::Diagnosis> diagnosis;
+  if (request.reference.empty()) {
+    diagnosis = gap::diagnose(*campaign, search_of(request, service), progress);
+  } else {
     const auto reference = drives_of(service, request.reference);
     if (!reference) return fail(reference.error());
-    auto since = gap::diagnose_since(*reference, *campaign, options, progress);
-    if (!since) return fail(since.error());
-    return DiagnosisAnswer{request, std::move(*campaign), std::move(*since)};
+    diagnosis = gap::diagnose_since(*reference, *campaign, search_of(request, service), progress);
   }
-  auto diagnosis = gap::diagnose(*campaign, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};
 }
@@ -122,11 +128,8 @@ Result<WatchAnswer> run_watch(const Service& service, const WatchRequest& reques
   watch.learn = request.learn;
   watch.change.alpha = request.alpha;
   watch.diagnose = request.diagnose;
-  gap::DiagnosisOptions options;
-  options.search.withheld = request.without;
-  options.search.threads = service.options().threads;
-  options.seed = request.seed;
-  auto watched = gap::watch_drives(request.watched, request.healthy.get(), watch, options, progress);
+  auto watched =
+      gap::watch_drives(request.watched, request.healthy.get(), watch, search_of(request, service), progress);
   if (!watched) return fail(watched.error());
   return WatchAnswer{*std::move(watched)};
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "api/json/text_place.h"
+
 namespace slipway::api::json {
 namespace {
 
@@ -152,18 +154,30 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-Result<JsonValue> parse(std::string_view bytes, const ParseLimits& limits) {
+// An empty name is that of no file.
+Result<JsonValue> parse_file(std::string_view bytes, std::string_view file, const ParseLimits& limits) {
   if (bytes.size() > limits.bytes) {
-    return fail(ErrorCode::kPayloadTooLarge,
-                fmt::format("the body has {} bytes, at most {} are read", bytes.size(), limits.bytes));
+    Error error{ErrorCode::kPayloadTooLarge,
+                fmt::format("the body has {} bytes, at most {} are read", bytes.size(), limits.bytes),
+                {}};
+    if (!file.empty()) error.faults = {{"", fmt::format("{}: {}", file, error.detail)}};
+    return fail(std::move(error));
   }
   Builder builder(limits);
   if (Library::sax_parse(bytes.begin(), bytes.end(), &builder)) return std::move(builder.root);
-  if (builder.error_position > 0 || builder.error.faults.empty()) {
-    builder.error.detail = printable(syntax_message(builder.error.detail, bytes, builder.error_position));
-    builder.error.faults = {{"", builder.error.detail}};
+  Error& error = builder.error;
+  if (builder.error_position > 0 || error.faults.empty()) {
+    error.detail = printable(syntax_message(error.detail, bytes, builder.error_position));
+    error.faults = {{"", file.empty() ? error.detail : fmt::format("{}, {}", file, error.detail)}};
+  } else if (!file.empty()) {
+    Fault& fault = error.faults.front();
+    fault.message = with_place(file, bytes, fault.pointer, fault.message);
   }
-  return fail(std::move(builder.error));
+  return fail(std::move(error));
+}
+
+Result<JsonValue> parse(std::string_view bytes, const ParseLimits& limits) {
+  return parse_file(bytes, {}, limits);
 }
 
 }  // namespace slipway::api::json

@@ -22,4 +22,8 @@ struct ParseLimits {
 // for too many bytes.
 Result<JsonValue> parse(std::string_view bytes, const ParseLimits& limits = {});
 
+// The same of a file's bytes: every fault begins with the file's name and the place in it, see with_place(),
+// and too many bytes are a fault too.
+Result<JsonValue> parse_file(std::string_view bytes, std::string_view file, const ParseLimits& limits);
+
 }  // namespace slipway::api::json

@@ -1,5 +1,7 @@
 #include "api/json/text_place.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -85,6 +87,13 @@ TextPlace place_of(std::string_view bytes, std::string_view pointer) {
   const std::size_t newline = before.rfind('\n');
   return {1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')),
           newline == std::string_view::npos ? at + 1 : at - newline};
+}
+
+std::string with_place(std::string_view file, std::string_view bytes, std::string_view pointer,
+                       std::string_view message) {
+  const TextPlace place = place_of(bytes, pointer);
+  return fmt::format("{}, line {}, column {} ({}): {}", file, place.line, place.column,
+                     pointer.empty() ? "all of it" : pointer, message);
 }
 
 }  // namespace slipway::api::json

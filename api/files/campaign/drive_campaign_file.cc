@@ -320,7 +320,7 @@ void read_drive_facts(ObjectReader& object, const sim::RoverModel* rover,
 }
 
 Result<DriveCampaignFile> read_drive_campaign_file(std::string_view bytes, const Catalogue& catalogue) {
-  const auto document = parse(bytes, kLimits);
+  const auto document = parse_file(bytes, kCampaignDocument, kLimits);
   if (!document) return fail(document.error());
   DriveCampaignFile file;
   std::vector<std::string> passed_over;

@@ -51,9 +51,12 @@ struct DriveCampaignFile {
 void read_drive_facts(ObjectReader& object, const sim::RoverModel* rover,
                       const std::vector<std::string>& terrains, gap::MeasuredDriveSeries& drive);
 
+// The name of a campaign's document in its folder.
+inline constexpr std::string_view kCampaignDocument = "campaign.json";
+
 // Reads keys that the format has not over, and says so in the notes: whoever measured may say more. Faults
 // are in the answer, so that those of the files beside it can join them. Errors: malformed_json,
-// payload_too_large.
+// payload_too_large, with faults that name the document and the place in it.
 Result<DriveCampaignFile> read_drive_campaign_file(std::string_view bytes, const Catalogue& catalogue);
 
 }  // namespace slipway::api::json

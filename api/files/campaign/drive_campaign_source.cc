@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kDocument = "campaign.json";
+using json::kCampaignDocument;
+
 // What a campaign may cost in memory: 180 MB of terrain, and about half a gigabyte of samples.
 constexpr long long kMaxCells = dem::kMaxWindowCells;
 // A file is read to its end for its digest, and one may have holes of any size.
@@ -67,13 +68,6 @@ std::uint64_t digest_of_file(const fs::path& path, std::uint64_t digest) {
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
     digest = fnv1a({block.data(), static_cast<std::size_t>(stream.gcount())}, digest);
   return digest;
-}
-
-// "campaign.json, line 12, column 3 (/rover): ..."
-std::string with_place(std::string_view document, const std::string& pointer, const std::string& message) {
-  const json::TextPlace place = json::place_of(document, pointer);
-  return fmt::format("{}, line {}, column {} ({}): {}", kDocument, place.line, place.column,
-                     pointer.empty() ? "all of it" : pointer, message);
 }
 
 class Loader {
@@ -113,7 +107,8 @@ class Loader {
   };
 
   void add(const std::string& pointer, const std::string& message) {
-    faults_.push_back({fmt::format("{}#{}", kDocument, pointer), with_place(document_, pointer, message)});
+    faults_.push_back({fmt::format("{}#{}", kCampaignDocument, pointer),
+                       json::with_place(kCampaignDocument, document_, pointer, message)});
   }
 
   std::size_t soil_index(const std::string& name) const {
@@ -233,32 +228,19 @@ Result<fs::path> document_in(const fs::path& folder) {
     return fail(ErrorCode::kUnreadableData,
                 fmt::format("there is no folder \"{}\", or it may not be read", name));
   if (!fs::is_directory(folder, error))
-    return fail(
-        ErrorCode::kUnreadableData,
-        fmt::format("\"{}\" is no folder: a campaign is the folder that {} lies in", name, kDocument));
-  if (fs::symlink_status(folder / kDocument, error).type() == fs::file_type::not_found)
     return fail(ErrorCode::kUnreadableData,
-                fmt::format("there is no {} in the folder \"{}\"", kDocument, name));
-  return place_in(folder, std::string(kDocument));
-}
-
-// Of a campaign.json that is no document. Faults of syntax say their line and column themselves.
-Error refused_document(std::string_view bytes, const Error& why) {
-  std::vector<Fault> faults = why.faults;
-  if (faults.empty()) faults.push_back({"", fmt::format("{}: {}", kDocument, why.detail)});
-  for (Fault& fault : faults) {
-    if (fault.message.starts_with("line "))
-      fault.message = fmt::format("{}, {}", kDocument, fault.message);
-    else if (!why.faults.empty())
-      fault.message = with_place(bytes, fault.pointer, fault.message);
-  }
-  return {ErrorCode::kUnreadableData, summary_of(faults), moved_under(fmt::format("{}#", kDocument), faults)};
+                fmt::format("\"{}\" is no folder: a campaign is the folder that {} lies in", name,
+                            kCampaignDocument));
+  if (fs::symlink_status(folder / kCampaignDocument, error).type() == fs::file_type::not_found)
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("there is no {} in the folder \"{}\"", kCampaignDocument, name));
+  return place_in(folder, std::string(kCampaignDocument));
 }
 
 }  // namespace
 
 Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Catalogue& catalogue) {
-  const std::string document(kDocument);
+  const std::string document(kCampaignDocument);
   const auto path = document_in(folder);
   if (!path)
     return fail(ErrorCode::kUnreadableData, path.error().detail, {{document + "#", path.error().detail}});
@@ -266,7 +248,9 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
   if (!bytes)
     return fail(ErrorCode::kUnreadableData, bytes.error().detail, {{document + "#", bytes.error().detail}});
   auto file = json::read_drive_campaign_file(*bytes, catalogue);
-  if (!file) return fail(refused_document(*bytes, file.error()));
+  if (!file)
+    return fail(ErrorCode::kUnreadableData, summary_of(file.error().faults),
+                moved_under(document + "#", file.error().faults));
   auto campaign = Loader(folder, *bytes, std::move(*file)).load();
   if (!campaign) return campaign;
   take_as_recorded(*campaign);
@@ -311,14 +295,6 @@ void take_as_recorded(gap::DriveCampaign& campaign) {
     campaign.notes.emplace_back(
         "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "
         "compared as the wheels' mean");
-}
-
-Result<std::optional<gap::DriveCampaign>> load_reference_drives(const fs::path& folder,
-                                                                const Catalogue& catalogue) {
-  if (folder.empty()) return std::nullopt;
-  auto drives = load_drive_campaign(folder, catalogue);
-  if (!drives) return fail(drives.error());
-  return std::optional<gap::DriveCampaign>(std::move(*drives));
 }
 
 }  // namespace slipway::api

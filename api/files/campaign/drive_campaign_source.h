@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,9 +28,5 @@ void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSer
 // What the drives' rows say of how they were recorded: rates that differ from the commanded ones, currents
 // that were divided evenly. Notes say so.
 void take_as_recorded(gap::DriveCampaign& campaign);
-
-// The same of drives that are taken as healthy; nothing where no folder is named.
-Result<std::optional<gap::DriveCampaign>> load_reference_drives(const std::filesystem::path& folder,
-                                                                const Catalogue& catalogue);
 
 }  // namespace slipway::api

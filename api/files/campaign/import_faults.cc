@@ -61,11 +61,9 @@ class Placing {
 
   void add_of_document(std::string_view pointer, const Fault& fault) {
     if (!pointer.starts_with(kDrives)) {
-      const json::TextPlace place = json::place_of(campaign_.known_document, pointer);
-      all_.push_back(
-          {fmt::format("{}#{}", campaign_.known_file, pointer),
-           fmt::format("{}, line {}, column {} ({}): {}", campaign_.known_file, place.line, place.column,
-                       pointer.empty() ? "all of it" : pointer, without_place(fault.message))});
+      all_.push_back({fmt::format("{}#{}", campaign_.known_file, pointer),
+                      json::with_place(campaign_.known_file, campaign_.known_document, pointer,
+                                       without_place(fault.message))});
       return;
     }
     // Drives that could not be made are missing in the list, and to those that repeat them.

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -17,7 +16,6 @@
 
 #include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
-#include "api/files/catalogue.h"
 #include "api/files/corrected_model.h"
 #include "api/files/model_folder.h"
 #include "api/files/whole_file.h"
@@ -238,26 +236,42 @@ Result<void> clear_model(const std::string& folder, bool is_offered) {
 
 }  // namespace
 
+gap::DiagnosisOptions DriveQuestion::search() const {
+  gap::DiagnosisOptions options;
+  options.search.withheld = without;
+  options.search.threads = static_cast<std::size_t>(threads);
+  options.seed = seed;
+  return options;
+}
+
+Result<AskedDrives> load_drives(const DriveQuestion& question) {
+  const auto catalogue = open_catalogue(question.data);
+  if (!catalogue) return fail(catalogue.error());
+  const auto load = [&](const std::string& named) {
+    return api::load_drive_campaign(campaign_folder(named, question.data), *catalogue);
+  };
+  auto campaign = load(question.campaign);
+  if (!campaign) return fail(campaign.error());
+  AskedDrives drives{*std::move(campaign), std::nullopt};
+  if (question.reference.empty()) return drives;
+  auto reference = load(question.reference);
+  if (!reference) return fail(reference.error());
+  drives.reference = *std::move(reference);
+  return drives;
+}
+
 int diagnose(const DiagnoseCommand& options) {
-  const auto catalogue = open_catalogue(options.data);
-  if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(campaign_folder(options.campaign, options.data), *catalogue);
-  if (!campaign) return refuse_unreadable(campaign.error());
-  const auto reference =
-      api::load_reference_drives(campaign_folder(options.reference, options.data), *catalogue);
-  if (!reference) return refuse_unreadable(reference.error());
+  const auto drives = load_drives(options);
+  if (!drives) return refuse_unreadable(drives.error());
+  const auto& [campaign, reference] = *drives;
   // What can't be written is known before the work.
   if (!options.report.empty())
     if (const auto made = make_room_for_report(options.report); !made) return refuse(made.error());
-  gap::DiagnosisOptions diagnosis;
-  diagnosis.search.withheld = options.without;
-  diagnosis.search.threads = static_cast<std::size_t>(options.threads);
-  diagnosis.seed = options.seed;
   std::optional<Result<Diagnosis>> result;
   {
     TerminalProgress progress;
-    result = *reference ? gap::diagnose_since(**reference, *campaign, diagnosis, progress)
-                        : gap::diagnose(*campaign, diagnosis, progress);
+    result = reference ? gap::diagnose_since(*reference, campaign, options.search(), progress)
+                       : gap::diagnose(campaign, options.search(), progress);
   }
   if (!*result) return refuse(result->error());
   const Diagnosis& d = **result;
@@ -269,27 +283,26 @@ int diagnose(const DiagnoseCommand& options) {
     if (folder) files.insert(files.end(), into_it.begin(), into_it.end());
   };
   if (!options.report.empty())
-    add(make_room_for_report(options.report), report_files(options.report, *campaign, d));
+    add(make_room_for_report(options.report), report_files(options.report, campaign, d));
   if (!options.model.empty()) {
-    const std::vector<OutputFile> model = model_files(options.model, *campaign, d);
+    const std::vector<OutputFile> model = model_files(options.model, campaign, d);
     add(clear_model(options.model, !model.empty()), model);
   }
   return std::max(
-      status, deliver(files, options.json ? api::json::diagnosis_document(*campaign, d) : answer_words(d)));
+      status, deliver(files, options.json ? api::json::diagnosis_document(campaign, d) : answer_words(d)));
 }
 
 namespace {
 
-// What both have: how the search is run, and how its answer is printed.
-template <class Command>
-void add_search(CLI::App& command, Command& options) {
-  command.add_option("--seed", options.seed, "the same seed gives the same answer")
+// How the search is run, and how its answer is printed.
+void add_search(CLI::App& command, DriveQuestion& question) {
+  command.add_option("--seed", question.seed, "the same seed gives the same answer")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
-  command.add_option("--threads", options.threads, "at once; 0: as many as the machine has")
+  command.add_option("--threads", question.threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  command.add_flag("--json", options.json, "print the document, for machines");
+  command.add_flag("--json", question.json, "print the document, for machines");
 }
 
 }  // namespace

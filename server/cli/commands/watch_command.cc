@@ -8,12 +8,9 @@
 #include <vector>
 
 #include "api/documents/diagnosis/watch_document.h"
-#include "api/files/campaign/drive_campaign_source.h"
-#include "api/files/catalogue.h"
 #include "api/report/watch_report.h"
 #include "gap/diagnosis/drive_watch.h"
 #include "server/cli/inquiry/command_parts.h"
-#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/exit_status.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -58,13 +55,9 @@ std::string watch_words(const gap::DriveWatch& watch) {
 
 int watch(const WatchCommand& options) {
   if (options.campaign.ends_with(".csv")) return watch_steps(options);
-  const auto catalogue = open_catalogue(options.data);
-  if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(campaign_folder(options.campaign, options.data), *catalogue);
-  if (!campaign) return refuse_unreadable(campaign.error());
-  const auto reference =
-      api::load_reference_drives(campaign_folder(options.reference, options.data), *catalogue);
-  if (!reference) return refuse_unreadable(reference.error());
+  const auto drives = load_drives(options);
+  if (!drives) return refuse_unreadable(drives.error());
+  const auto& [campaign, reference] = *drives;
   // What can't be written is known before the work.
   if (!options.report.empty())
     if (const auto made = make_room_for_report(options.report); !made) return refuse(made.error());
@@ -72,21 +65,18 @@ int watch(const WatchCommand& options) {
   watch.learn = options.learn;
   watch.change.alpha = options.alpha;
   watch.diagnose = options.diagnose;
-  gap::DiagnosisOptions diagnosis;
-  diagnosis.search.withheld = options.without;
-  diagnosis.search.threads = static_cast<std::size_t>(options.threads);
-  diagnosis.seed = options.seed;
   std::optional<Result<gap::DriveWatch>> result;
   {
     TerminalProgress progress;
-    result = gap::watch_drives(*campaign, *reference ? &**reference : nullptr, watch, diagnosis, progress);
+    result =
+        gap::watch_drives(campaign, reference ? &*reference : nullptr, watch, options.search(), progress);
   }
   if (!*result) return refuse((*result).error());
   const gap::DriveWatch& found = **result;
   std::vector<OutputFile> files;
   if (!options.report.empty()) {
     const std::vector<api::NamedChart> charts = api::draw_watch(found);
-    files = report_output(options.report, api::watch_report(*campaign, found, charts), charts, "watch.json",
+    files = report_output(options.report, api::watch_report(campaign, found, charts), charts, "watch.json",
                           api::json::watch_document(found));
   }
   const int status = deliver(files, options.json ? api::json::watch_document(found) : watch_words(found));

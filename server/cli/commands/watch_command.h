@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
+
+#include "server/cli/commands/diagnose_command.h"
 
 namespace CLI {
 class App;
@@ -11,19 +11,13 @@ class App;
 
 namespace slipway::server {
 
-struct WatchCommand {
-  std::string data;
-  // Folder of a "drive-campaign/1", its drives in their order, or a table of measured steps (*.csv).
-  std::string campaign;
-  std::string rover = "msl-class";   // that made the steps
-  std::string reference;             // folder of healthy drives; empty: the campaign's first ones
-  std::vector<std::string> without;  // effects that are not looked for
-  int learn = 12;                    // of the campaign's drives where there is no reference
+// The drives are in their order, or are a table of measured steps (*.csv); without a reference the first of
+// them are taken as healthy.
+struct WatchCommand : DriveQuestion {
+  std::string rover = "msl-class";  // that made the steps
+  int learn = 12;                   // of the campaign's drives where there is no reference
   double alpha = 0.01;
-  std::uint64_t seed = 1;
-  int threads = 0;     // 0: as many as the machine has
-  std::string report;  // folder, or an HTML file; empty: none
-  bool diagnose = true, json = false;
+  bool diagnose = true;
 };
 
 // The exit status: 0 nothing has changed, 6 something has, 1 no answer, 2 input that can't be read.
