@@ -61,13 +61,11 @@ std::string_view why_no_model(Verdict verdict) {
     case Verdict::kNotDetected:
       return "None is offered: what was given predicts these drives as well as they can be, once its "
              "parameters are re-tuned within what was believed of them.";
-    case Verdict::kUnknown:
-      return "None is offered: something unknown is at work, and on drives that the fit had not seen the "
-             "re-tuned model predicts some channel worse than the nominal one, or none much better.";
     case Verdict::kInsufficient:
       return "None is offered: there are too few drives.";
     default:
-      return "None is offered: with the effects, drives that the fit had not seen are predicted no better.";
+      return "None is offered: it would be no better one to plan with than the nominal one. The notes say "
+             "why.";
   }
 }
 
@@ -81,19 +79,21 @@ class Report {
          ReportPage& page)
       : campaign_(campaign), d_(d), charts_(charts), page_(page) {}
 
+  // For an engineer who was not in the room: what was found and how sure, where, how far the gap shrinks,
+  // what to change, which drive next. What that rests on follows.
   void write() {
-    write_what_was_driven(page_, campaign_);
     write_verdict();
-    write_how_to_read();
-    write_reference(page_, d_);
-    write_explanations();
-    write_ladder(page_, d_, charts_);
     write_where(page_, d_, charts_);
     write_unknown(page_, d_);
+    write_ladder(page_, d_, charts_);
+    write_model();
+    write_next_drives(page_, d_);
+    write_how_to_read();
+    write_explanations();
     write_retuned(page_, d_);
     add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
-    write_next_drives(page_, d_);
-    write_model();
+    write_reference(page_, d_);
+    write_what_was_driven(page_, campaign_);
     write_notes();
     write_options(page_, d_);
   }
@@ -182,13 +182,13 @@ class Report {
     page_.paragraph(
         "Each effect of the library over all explanations, with and without something unknown beside it, and "
         "what goes with it of the gap that re-tuning leaves on drives held out of the fit. Effects are named "
-        "by both: one that closes next to nothing is not named, one that closes most is not withheld because "
-        "something else is left.");
-    page_.table({"effect", "probability", "closes", "what it is"});
+        "by the last figure: how often effects with such a probability and such a share were at work in "
+        "campaigns whose causes were known.");
+    page_.table({"effect", "probability", "closes", "at work", "what it is"});
     for (const gap::EffectMarginal& m : d_.marginals)
       if (shown(m))
         page_.row({m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share),
-                   effect_summary(m.name)});
+                   probability_words(m.calibrated), effect_summary(m.name)});
   }
 
   void write_model() {

@@ -176,22 +176,11 @@ void write_options(ReportPage& page, const Diagnosis& d) {
     changed.push_back({option.step, option.name, values_words(option),
                        usual != nullptr ? values_words(*usual) : std::string()});
   }
-  if (changed.empty()) {
-    page.paragraph("Every number that this answer depends on besides the drives has its default.");
-  } else {
-    page.paragraph("Numbers that this answer depends on besides the drives and that are not the default:");
-    page.table({"step", "option", "value", "default"});
-    for (std::vector<ReportText>& row : changed) page.row(std::move(row));
-  }
-  page.folded_table("All of these numbers, by the step that uses them", {"step", "options"});
-  for (std::size_t i = 0; i < d.options.size();) {
-    const std::string_view step = d.options[i].step;
-    std::string words;
-    for (; i < d.options.size() && d.options[i].step == step; ++i)
-      words +=
-          fmt::format("{}{} {}", words.empty() ? "" : ", ", d.options[i].name, values_words(d.options[i]));
-    page.row({std::string(step), words});
-  }
+  if (changed.empty())
+    return page.paragraph("Every number that this answer depends on besides the drives has its default.");
+  page.paragraph("Numbers that this answer depends on besides the drives and that are not the default:");
+  page.table({"step", "option", "value", "default"});
+  for (std::vector<ReportText>& row : changed) page.row(std::move(row));
 }
 
 }  // namespace slipway::api

@@ -10,7 +10,7 @@
 #include "gap/diagnosis/decide/adequacy.h"
 #include "gap/diagnosis/decide/calibration.h"
 #include "gap/diagnosis/decide/posterior.h"
-#include "gap/diagnosis/decide/words.h"
+#include "gap/diagnosis/describe/decision_words.h"
 
 namespace slipway::gap {
 namespace {
@@ -132,6 +132,26 @@ TEST(Decision, LeavesOutTheSecondEffectThatIsNotSure) {
   EXPECT_EQ(record.explanations[d.answer].effects, Names{"com_offset"});
   EXPECT_NEAR(d.set_probability, 0.69, 1e-12);
   EXPECT_EQ(d.verdict, Verdict::kEffects);
+}
+
+// An effect of 438 nats lost its name because it closed 4 % of the gap.
+TEST(Decision, NamesWhatIsCertainThoughItClosesLittleAndNotWhatIsLikelyAndClosesNothing) {
+  SearchRecord record = record_of({{of({"com_offset"}), 0.999}, {of({}), 0.001}});
+  record.causes[0].share = 0.04;
+  EXPECT_EQ(decided(record).names, Names{"com_offset"});
+  SearchRecord likely = record_of({{of({"com_offset"}), 0.8}, {of({}), 0.2}});
+  likely.causes[0].share = 0.0;
+  EXPECT_TRUE(decided(likely).names.empty());
+}
+
+// What a reference taught leaves sets of effects on healthy drives that close nothing.
+TEST(Decision, RaisesNoAlarmForEffectsThatCloseNothing) {
+  SearchRecord record = record_of({{of({"com_offset"}), 0.4}, {of({"grousers"}), 0.4}, {of({}), 0.2}});
+  record.with_reference = true;
+  for (SearchRecord::Cause& cause : record.causes) cause.share = 0.02;
+  EXPECT_TRUE(finds_nothing_missing(decided(record).verdict));
+  for (SearchRecord::Cause& cause : record.causes) cause.share = 0.8;
+  EXPECT_EQ(decided(record).verdict, Verdict::kUnknown);
 }
 
 TEST(Decision, SaysASetWhereWhatElseIsAtWorkIsOpen) {

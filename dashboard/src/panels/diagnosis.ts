@@ -199,7 +199,7 @@ export function diagnosisView(target: HTMLElement): void {
       h("p", { class: "banner small unknown", "data-diagnosis": d.verdict }, verdictText[d.verdict]),
       h("p", {}, `${sentence(words(d.reason))}.`), h("p", { class: "hint" }, `What would change it: ${words(d.overturned_by)}.`),
       ...details(d),
-      h("h3", {}, "How far the gap closes"), h("p", { class: "hint" }, "On drives that no fit had seen: shorter is better, and no bar can be shorter than the floor."), ladder(d),
+      h("h3", {}, "How far the gap closes"), h("p", { class: "hint" }, "On drives that no fit had seen: shorter is better. The floor is what sensors and the drives' own scatter make."), ladder(d),
       h("h3", {}, "Which effects"), marginals(d),
       h("h3", {}, "Where"), ...where(d),
       replan(job, d),

@@ -1,6 +1,7 @@
 #include "gap/diagnosis/decide/decision.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -10,6 +11,9 @@
 
 namespace slipway::gap {
 namespace {
+
+constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected", "parameters",  "effects",
+                                                    "effect_set", "unknown",      "insufficient"};
 
 using Names = std::set<std::string>;
 using Explanation = SearchRecord::Explanation;
@@ -65,6 +69,10 @@ double missing_probability(const SearchRecord& record) {
 }
 
 }  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  return kVerdicts[static_cast<std::size_t>(verdict)];
+}
 
 bool may_be_wheel_law(const std::string& effect) {
   const sim::Effect* const row = sim::find_effect(effect);

@@ -1,30 +1,11 @@
 #include "gap/diagnosis/decide/posterior.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
+
+#include "gap/diagnosis/search/candidate.h"
 
 namespace slipway::gap {
-
-double log_weight(double log_evidence, double log_prior, std::span<const std::vector<double>> other_variants,
-                  double share) {
-  double weight = share * log_evidence + log_prior;
-  for (const std::vector<double>& of_cause : other_variants) {
-    double variants = 1.0;
-    for (const double less : of_cause) variants += std::exp(share * less);
-    weight += std::log(variants);
-  }
-  return weight;
-}
-
-std::vector<double> normalised(std::span<const double> log_weights) {
-  std::vector<double> weights(log_weights.begin(), log_weights.end());
-  if (weights.empty()) return weights;
-  const double most = *std::max_element(weights.begin(), weights.end());
-  double sum = 0.0;
-  for (double& w : weights) sum += w = std::exp(w - most);
-  for (double& w : weights) w /= sum;
-  return weights;
-}
 
 void weigh(SearchRecord& record, double share) {
   std::vector<double> weights;

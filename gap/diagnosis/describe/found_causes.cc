@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/model/outside_cause.h"
 
 namespace slipway::gap {

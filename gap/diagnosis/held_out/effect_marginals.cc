@@ -57,12 +57,6 @@ double ClosedShares::beside_others(const std::string& cause) const {
   return left > 0.0 ? std::clamp((rms_of(others) - rms_of(all)) / left, 0.0, 1.0) : 0.0;
 }
 
-EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect) {
-  const auto own = std::find_if(marginals.begin(), marginals.end(),
-                                [&](const EffectMarginal& m) { return m.name == effect; });
-  return own != marginals.end() ? *own : EffectMarginal{.name = effect};
-}
-
 std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
                                              const ExplanationSearch& search, const ClosedShares& shares) {
   std::vector<EffectMarginal> marginals;

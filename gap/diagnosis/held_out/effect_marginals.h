@@ -42,9 +42,6 @@ class ClosedShares {
   double nothing_ = 0.0, floor_ = 1.0, gap_ = 0.0;
 };
 
-// The effect's own among them; probability and share are 0 where it is not.
-EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect);
-
 // Of every effect in the library, the most probable first.
 std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
                                              const ExplanationSearch& search, const ClosedShares& shares);

@@ -1,12 +1,11 @@
 #include "gap/diagnosis/result/result.h"
 
+#include <algorithm>
 #include <array>
 
 namespace slipway::gap {
 namespace {
 
-constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected", "parameters",  "effects",
-                                                    "effect_set", "unknown",      "insufficient"};
 // In the order of NuisanceKind.
 constexpr std::array<std::string_view, 4> kMeasurements{
     "plate and shear tests of the soil",
@@ -15,12 +14,14 @@ constexpr std::array<std::string_view, 4> kMeasurements{
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
-  return kVerdicts[static_cast<std::size_t>(verdict)];
-}
-
 std::string_view measurement_of(NuisanceKind kind) {
   return kMeasurements[static_cast<std::size_t>(kind)];
+}
+
+EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect) {
+  const auto own = std::find_if(marginals.begin(), marginals.end(),
+                                [&](const EffectMarginal& m) { return m.name == effect; });
+  return own != marginals.end() ? *own : EffectMarginal{.name = effect};
 }
 
 std::vector<std::string> names_of(const ComparedSet& set) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -196,6 +197,9 @@ struct EffectMarginal {
   double log_evidence = 0.0;
   double calibrated = 0.0;  // probability that it is at work, by which it is named: see calibration.h
 };
+
+// The effect's own among these; probability and share are 0 where it is not.
+EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect);
 
 // Something unknown of a known form: a force from outside, or a sensor that reads wrongly.
 struct OutsideFinding {

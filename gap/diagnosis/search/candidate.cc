@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "gap/diagnosis/decide/posterior.h"
 #include "gap/diagnosis/model/outside_cause.h"
 
 namespace slipway::gap {
@@ -64,6 +63,27 @@ LogPrior log_prior_of_outside(const PriorOptions& options, double causes) {
 LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effects, double causes) {
   return beside_something_else(options,
                                std::log(options.one_effect / effects * options.one_outside / causes));
+}
+
+double log_weight(double log_evidence, double log_prior, std::span<const std::vector<double>> other_variants,
+                  double share) {
+  double weight = share * log_evidence + log_prior;
+  for (const std::vector<double>& of_cause : other_variants) {
+    double variants = 1.0;
+    for (const double less : of_cause) variants += std::exp(share * less);
+    weight += std::log(variants);
+  }
+  return weight;
+}
+
+std::vector<double> normalised(std::span<const double> log_weights) {
+  std::vector<double> weights(log_weights.begin(), log_weights.end());
+  if (weights.empty()) return weights;
+  const double most = *std::max_element(weights.begin(), weights.end());
+  double sum = 0.0;
+  for (double& w : weights) sum += w = std::exp(w - most);
+  for (double& w : weights) w /= sum;
+  return weights;
 }
 
 void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {

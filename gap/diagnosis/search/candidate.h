@@ -35,7 +35,18 @@ double evidence_over_nothing(const Candidate& candidate, std::span<const Candida
 std::vector<std::string> library_effects_of(const Candidate& candidate);
 std::vector<std::string> outside_causes_of(const Candidate& candidate);
 
-// The candidates' probabilities from evidence and prior, see decide/posterior.h.
+// Probabilities of the compared explanations: P(m) proportional to p(m) exp(share E_m), of which each variant
+// of a cause takes its part. No simulator is exact, so that only a share of the log evidence E is believed: a
+// coarsened posterior [Miller and Dunson 2019].
+
+// The logarithm of an explanation's weight, up to a constant of all of them.
+double log_weight(double log_evidence, double log_prior, std::span<const std::vector<double>> other_variants,
+                  double share);
+
+// Weights that add up to 1.
+std::vector<double> normalised(std::span<const double> log_weights);
+
+// The candidates' probabilities from evidence and prior.
 void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
 // Weighs them and puts the most probable first.
 void rank(std::span<Candidate> candidates, const EvidenceOptions& options);

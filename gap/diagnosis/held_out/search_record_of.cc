@@ -1,4 +1,4 @@
-#include "gap/diagnosis/decide/record_of.h"
+#include "gap/diagnosis/held_out/search_record_of.h"
 
 #include <map>
 #include <set>

@@ -1,12 +1,10 @@
-#include "gap/diagnosis/decide/words.h"
+#include "gap/diagnosis/describe/decision_words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
-
-#include "gap/diagnosis/held_out/effect_marginals.h"
 
 namespace slipway::gap {
 namespace {
