@@ -92,15 +92,14 @@ Decision decide(const SearchRecord& record, double evidence_share, const Decisio
     decision.calibrated[cause.name] =
         calibration(record.with_reference)(decision.marginals.of_cause[cause.name], cause.share);
   decision.nominal_probability = 1.0 / (1.0 + std::exp(evidence_share * record.parameters_gain));
-
   decision.missing_probability = missing_probability(record);
 
   const Names names = set_of_least_loss(record, decision, options);
   decision.names.assign(names.begin(), names.end());
   if (names.empty()) {
-    const double nothing = decision.marginals.nothing;
+    const double missing = decision.missing_probability;
     const bool alarm =
-        !decision.adequate || nothing * options.false_alarm < (1.0 - nothing) * options.missed_alarm;
+        !decision.adequate || (1.0 - missing) * options.false_alarm < missing * options.missed_alarm;
     decision.answer = decision.beside =
         alarm ? most_probable(record, [](const Explanation& e) { return e.unknown(); })
               : most_probable(record, [](const Explanation& e) { return !e.unknown() && e.effects.empty(); });
