@@ -131,7 +131,7 @@ struct SecondSearchOptions {
 // wrong. They add up to 1 but for pairs beside something else.
 struct PriorOptions {
   double nothing = 0.2;
-  double one_effect = 0.39;    // shared by the effects of the library
+  double one_effect = 0.39;     // shared by the effects of the library
   double two_effects = 0.132;   // shared by their pairs
   double something_else = 0.1;  // of no known form; beside effects as often
   double one_outside = 0.1;     // shared by the causes from outside; beside an effect as often
