@@ -71,8 +71,8 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   const effect = answer.effects[0].name;
   assert.equal(effect, "motor_temperature");
   const first = answer.marginals[0];
-  assert.ok(first.probability > 0.8 && first.probability < 0.995, `${first.probability}`);
-  assert.match(await p.textContent('[aria-label="Effects and their probabilities"] tbody tr >> nth=0'), new RegExp(`^motor temperature${first.probability.toFixed(2).replace(".", "\\.")}`));
+  assert.ok(first.probability > 0.8, `${first.probability}`);
+  assert.match(await p.textContent('[aria-label="Effects and their probabilities"] tbody tr >> nth=0'), /^motor temperature(> 0\.99|0\.[89]\d)/);
 
   // Where: the windows on the map, and predicted against driven in the charts; each points at the other.
   const shown = await p.inputValue("#gap-ground");
