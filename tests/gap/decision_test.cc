@@ -105,7 +105,8 @@ TEST(Calibration, GrowsWithProbabilityAndShareAndStaysWithinItsEnds) {
     const Calibration& q = calibration(with_reference);
     EXPECT_LT(q(0.5, 0.5), q(0.9, 0.5));
     EXPECT_LT(q(0.9, 0.05), q(0.9, 0.5));
-    EXPECT_GT(q(0.0, 0.0), 0.0);
+    EXPECT_GT(q(0.0, 0.01), 0.0);
+    EXPECT_EQ(q(1.0, 0.0), 0.0) << "closes nothing";
     EXPECT_LT(q(1.0, 1.0), 1.0);
   }
 }

@@ -6,6 +6,7 @@
 namespace slipway::gap {
 
 double Calibration::operator()(double marginal, double share) const {
+  if (!(share > 0.0)) return 0.0;
   // Beyond these neither number says more: no simulator is exact.
   constexpr double kLeastProbability = 0.01, kLeastShare = 0.01;
   const double p = std::clamp(marginal, kLeastProbability, 1.0 - kLeastProbability);

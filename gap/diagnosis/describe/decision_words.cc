@@ -78,6 +78,11 @@ DecisionWords words_of(const Decision& decision, const SearchRecord& record,
     case Verdict::kEffects:
     case Verdict::kEffectSet: {
       const std::string named = closing_words(marginals, decision.names);
+      if (decision.verdict == Verdict::kEffectSet)
+        return {
+            fmt::format("{}; whether other effects of the library are at work beside is open on these drives",
+                        named),
+            rival};
       if (!decision.partial)
         return {fmt::format("{}; that these explain what re-tuned parameters leave over has a probability of "
                             "{:.2f}",

@@ -29,8 +29,11 @@ std::optional<std::string> why_not_better(const FittedExplanation& reported, dou
     return fmt::format("{} would stand at the end of what it may be", *end);
   bool better = false;
   for (const ChannelClosure& c : d.gap) {
-    const double corrected = with_effects ? c.with_effects.value : c.retuned.value;
-    if (corrected > options.no_worse * c.nominal.value)
+    const Interval& of_model = with_effects ? c.with_effects : c.retuned;
+    const double corrected = of_model.value;
+    // Beyond chance, or by as much as the noise.
+    if (of_model.low > options.no_worse * c.nominal.value ||
+        corrected > c.nominal.value + c.noise_floor.value)
       return fmt::format(
           "on drives held out of the fit it would predict {} {:.0f} % worse than the nominal one",
           name_of(c.channel), 100.0 * (corrected / c.nominal.value - 1.0));
