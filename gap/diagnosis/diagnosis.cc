@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/angle.h"
@@ -198,7 +197,7 @@ class Diagnoser {
     progress_.report("weighing single effects", kSearchedAgain);
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
-    d_.search = record_of(search_, shares, d_.library, std::cref(held_out));
+    d_.search = record_of(search_, shares, d_.library);
     d_.search.with_reference = campaign_.reference != nullptr;
     d_.search.drives = d_.drives;
     d_.search.windows = d_.windows;
@@ -214,14 +213,14 @@ class Diagnoser {
     d_.partial = decision.partial;
     d_.model_adequate = decision.adequate;
     d_.conflict_probability = decision.adequacy.conflict_p;
-    d_.marginals = effect_marginals(d_.library, search_, shares);
+    d_.marginals = effect_marginals(d_.search);
     for (EffectMarginal& m : d_.marginals) m.calibrated = decision.calibrated.at(m.name);
     d_.candidates = compared_sets();
     if (d_.partial || d_.verdict == Verdict::kUnknown)
       d_.outside = outside_finding(search_.fits[beside().fit], campaign_);
     if (d_.outside) {
       d_.outside->probability = decision.marginals.of_cause.at(d_.outside->cause);
-      d_.outside->closed_share = shares.of(d_.outside->cause);
+      d_.outside->closed_share = d_.search.share_of(d_.outside->cause);
     }
     d_.effects = found_effects(best_fit(), decision.names, d_.marginals);
     if (finds_nothing_missing(d_.verdict))

@@ -185,14 +185,15 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   if (given.oracle) file += "-oracle";
   for (const std::string& effect : given.withheld)
     if (!given.oracle) file += "-without-" + effect;
-  const auto keep = [&](const std::string& folder, const std::string& document) -> Result<void> {
+  const auto keep = [&](const std::string& folder, const auto& document) -> Result<void> {
     if (folder.empty()) return {};
-    return api::write_whole_file(fs::path(folder) / (file + ".json"), document);
+    return api::write_whole_file(fs::path(folder) / (file + ".json"), document());
   };
-  if (auto kept = keep(options.keep, api::json::diagnosis_document(*campaign, *diagnosis)); !kept)
-    return fail(kept.error());
-  if (auto kept = keep(options.keep_search, api::json::search_record_document(*diagnosis)); !kept)
-    return fail(kept.error());
+  const auto kept =
+      keep(options.keep, [&] { return api::json::diagnosis_document(*campaign, *diagnosis); }).and_then([&] {
+        return keep(options.keep_search, [&] { return api::json::search_record_document(*diagnosis); });
+      });
+  if (!kept) return fail(kept.error());
   return Timed{std::move(*diagnosis), took.count()};
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "gap/diagnosis/held_out/linear_held_out.h"
+#include "gap/diagnosis/held_out/search_record_of.h"
 #include "tests/gap/linear_model.h"
 #include "tests/sim/reference_models.h"
 
@@ -85,6 +86,7 @@ ExplanationSearch search_with(std::vector<double> rms) {
   ExplanationSearch search;
   for (const double r : rms) {
     search.fits.push_back({{}, Hypothesis(campaign, {})});
+    search.fits.back().x = search.fits.back().hypothesis.neutral();
     search.fits.back().log_evidence = r;
   }
   return search;
@@ -113,7 +115,7 @@ TEST(ClosedShares, OfAPairAddUpToWhatThePairCloses) {
   EXPECT_EQ(shares.beside_others("c"), 0.0) << "not fitted";
 
   const std::vector<std::string> library{"c", "b", "a"};
-  const std::vector<EffectMarginal> marginals = effect_marginals(library, search, shares);
+  const std::vector<EffectMarginal> marginals = effect_marginals(record_of(search, shares, library));
   ASSERT_EQ(marginals.size(), 3U) << "every effect of the library";
   EXPECT_EQ(marginals[0].name, "a");
   EXPECT_NEAR(marginals[0].probability, 0.9, 1e-12);

@@ -54,15 +54,12 @@ Names set_of_least_loss(const SearchRecord& record, const Decision& decision,
 }
 
 double missing_probability(const SearchRecord& record) {
-  const auto certain = [&](const std::string& effect) {
-    const auto cause = std::find_if(record.causes.begin(), record.causes.end(),
-                                    [&](const SearchRecord::Cause& c) { return c.name == effect; });
-    return calibration(record.with_reference)(1.0, cause == record.causes.end() ? 0.0 : cause->share);
-  };
+  const Calibration& of_certain = calibration(record.with_reference);
   double missing = 0.0;
   for (const Explanation& e : record.explanations) {
     double at_work = e.unknown() ? 1.0 : 0.0;
-    for (const std::string& effect : e.effects) at_work = std::max(at_work, certain(effect));
+    for (const std::string& effect : e.effects)
+      at_work = std::max(at_work, of_certain(1.0, record.share_of(effect)));
     missing += e.probability * at_work;
   }
   return missing;
@@ -85,13 +82,11 @@ bool may_be_wheel_law(const std::string& effect) {
 Decision decide(const SearchRecord& record, double evidence_share, const DecisionOptions& options) {
   Decision decision;
   decision.marginals = marginals_of(record);
-  const std::size_t first = most_probable(record, [](const Explanation&) { return true; });
-  decision.adequacy = adequacy_of(record, record.explanations[first].fit);
+  decision.adequacy = adequacy_of(record, record.explanations.front().fit);
   decision.adequate = decision.adequacy.conflict_p >= options.conflict;
   for (const SearchRecord::Cause& cause : record.causes)
     decision.calibrated[cause.name] =
         calibration(record.with_reference)(decision.marginals.of_cause[cause.name], cause.share);
-  decision.nominal_probability = 1.0 / (1.0 + std::exp(evidence_share * record.parameters_gain));
   decision.missing_probability = missing_probability(record);
 
   const Names names = set_of_least_loss(record, decision, options);
@@ -103,11 +98,13 @@ Decision decide(const SearchRecord& record, double evidence_share, const Decisio
     decision.answer = decision.beside =
         alarm ? most_probable(record, [](const Explanation& e) { return e.unknown(); })
               : most_probable(record, [](const Explanation& e) { return !e.unknown() && e.effects.empty(); });
+    // That soils and motors are as believed, if nothing is missing.
+    const double nominal = 1.0 / (1.0 + std::exp(evidence_share * record.parameters_gain));
     const double sure = options.wrong_name / (options.wrong_name + options.missed_name);
-    decision.verdict = alarm                                       ? Verdict::kUnknown
-                       : 1.0 - decision.nominal_probability > sure ? Verdict::kParameters
-                       : record.hidden_share < 0.5                 ? Verdict::kNoGap
-                                                                   : Verdict::kNotDetected;
+    decision.verdict = alarm                       ? Verdict::kUnknown
+                       : 1.0 - nominal > sure      ? Verdict::kParameters
+                       : record.hidden_share < 0.5 ? Verdict::kNoGap
+                                                   : Verdict::kNotDetected;
     return decision;
   }
   double unknown = 0.0;

@@ -51,7 +51,6 @@ struct Decision {
   // That exactly the named effects of the library are at work, with something unknown or without.
   double set_probability = 0.0;
   double missing_probability = 0.0;  // that something is missing
-  double nominal_probability = 1.0;  // that soils and motors are as believed, if nothing is missing
 };
 Decision decide(const SearchRecord& record, double evidence_share, const DecisionOptions& options);
 

@@ -1,21 +1,20 @@
 #include "gap/diagnosis/decide/posterior.h"
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
 #include "gap/diagnosis/search/candidate.h"
 
 namespace slipway::gap {
 
+double SearchRecord::share_of(const std::string& cause) const {
+  const auto own =
+      std::find_if(causes.begin(), causes.end(), [&](const Cause& c) { return c.name == cause; });
+  return own == causes.end() ? 0.0 : own->share;
+}
+
 void weigh(SearchRecord& record, double share) {
-  std::vector<double> weights;
-  for (const SearchRecord::Explanation& e : record.explanations)
-    weights.push_back(log_weight(e.log_evidence, e.log_prior, e.other_variants, share));
-  const std::vector<double> probabilities = normalised(weights);
-  for (std::size_t i = 0; i < probabilities.size(); ++i)
-    record.explanations[i].probability = probabilities[i];
-  std::stable_sort(record.explanations.begin(), record.explanations.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  rank(std::span(record.explanations), share);
 }
 
 Marginals marginals_of(const SearchRecord& record) {

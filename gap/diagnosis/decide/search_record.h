@@ -48,6 +48,8 @@ struct SearchRecord {
   std::vector<double> scatter_deviations;  // of each scale's logarithm, above what was believed of it
   double parameters_gain = 0.0;            // log evidence of free soils and motors over nominal ones
   double hidden_share = 1.0;  // of the variants, those that these drives would not surely have shown
+
+  double share_of(const std::string& cause) const;  // 0 of one that is not among them
 };
 
 }  // namespace slipway::gap

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "gap/diagnosis/decide/posterior.h"
+#include "gap/diagnosis/model/outside_cause.h"
+
 namespace slipway::gap {
 
 ClosedShares::ClosedShares(Rms rms, const ExplanationSearch& search)
@@ -43,11 +46,6 @@ double ClosedShares::of(const std::string& cause) const {
   return std::clamp(closed / gap_, 0.0, 1.0);
 }
 
-double ClosedShares::of_all(std::span<const std::string> causes) const {
-  if (!(gap_ > 0.0)) return 0.0;
-  return std::clamp((nothing_ - rms_of({causes.begin(), causes.end()})) / gap_, 0.0, 1.0);
-}
-
 double ClosedShares::beside_others(const std::string& cause) const {
   const Names all = explanation_with(cause);
   if (all.empty()) return 0.0;
@@ -57,19 +55,16 @@ double ClosedShares::beside_others(const std::string& cause) const {
   return left > 0.0 ? std::clamp((rms_of(others) - rms_of(all)) / left, 0.0, 1.0) : 0.0;
 }
 
-std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
-                                             const ExplanationSearch& search, const ClosedShares& shares) {
+std::vector<EffectMarginal> effect_marginals(const SearchRecord& record) {
+  const Marginals probabilities = marginals_of(record);
   std::vector<EffectMarginal> marginals;
-  for (const std::string& effect : library) {
-    double probability = 0.0, with = kAnyEvidence, without = kAnyEvidence;
-    for (const Candidate& c : search.candidates) {
-      const bool has = std::find(c.effects.begin(), c.effects.end(), effect) != c.effects.end();
-      if (has) probability += c.probability;
-      double& best = has ? with : without;
-      best = std::max(best, c.log_evidence);
-    }
-    marginals.push_back({effect, probability, shares.of(effect),
-                         with > kAnyEvidence && without > kAnyEvidence ? with - without : 0.0});
+  for (const SearchRecord::Cause& cause : record.causes) {
+    if (is_outside(cause.name)) continue;
+    const auto probability = probabilities.of_cause.find(cause.name);
+    marginals.push_back(
+        {.name = cause.name,
+         .probability = probability == probabilities.of_cause.end() ? 0.0 : probability->second,
+         .closed_share = cause.share});
   }
   std::stable_sort(marginals.begin(), marginals.end(), [](const EffectMarginal& a, const EffectMarginal& b) {
     return a.probability != b.probability ? a.probability > b.probability : a.closed_share > b.closed_share;

@@ -3,10 +3,10 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "gap/diagnosis/decide/search_record.h"
 #include "gap/diagnosis/result/result.h"
 #include "gap/diagnosis/search/explanation_search.h"
 
@@ -24,15 +24,15 @@ class ClosedShares {
   // Of a cause in the most probable explanation that has it; of one that was not fitted by its derivatives
   // beside the re-tuned parameters. Within 0 and 1.
   double of(const std::string& cause) const;
-  // Of all these causes together, as they were fitted; 0 where that set was not. Within 0 and 1.
-  double of_all(std::span<const std::string> causes) const;
   // In the same explanation, of what the other causes leave above the floor: of a weak cause beside one that
   // closes nearly all. 0 of a cause that was not fitted. Within 0 and 1.
   double beside_others(const std::string& cause) const;
 
- private:
+  // r of these causes together, as they were fitted; where they were not, that of nothing.
   using Names = std::set<std::string>;
-  double rms_of(const Names& names) const;  // where it was not fitted, that of nothing
+  double rms_of(const Names& names) const;
+
+ private:
   // The most probable explanation that has the cause; empty where it was not fitted.
   Names explanation_with(const std::string& cause) const;
 
@@ -43,7 +43,6 @@ class ClosedShares {
 };
 
 // Of every effect in the library, the most probable first.
-std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
-                                             const ExplanationSearch& search, const ClosedShares& shares);
+std::vector<EffectMarginal> effect_marginals(const SearchRecord& record);
 
 }  // namespace slipway::gap

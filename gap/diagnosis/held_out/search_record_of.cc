@@ -22,21 +22,22 @@ SearchRecord::Fit record_of_fit(const FittedExplanation& fit, double held_out_rm
 }  // namespace
 
 SearchRecord record_of(const ExplanationSearch& search, const ClosedShares& shares,
-                       std::span<const std::string> library, const ClosedShares::Rms& held_out) {
+                       std::span<const std::string> library) {
   SearchRecord record;
   // Fits that were given up compete in no explanation.
   std::map<std::size_t, std::size_t> place_of_fit;
-  const auto place_of = [&](std::size_t fit) {
+  const auto place_of = [&](std::size_t fit, const std::vector<std::string>& causes) {
     const auto [place, is_new] = place_of_fit.try_emplace(fit, record.fits.size());
-    if (is_new) record.fits.push_back(record_of_fit(search.fits[fit], held_out(search.fits[fit], {})));
+    if (is_new)
+      record.fits.push_back(record_of_fit(search.fits[fit], shares.rms_of({causes.begin(), causes.end()})));
     return place->second;
   };
-  place_of(0);
+  place_of(0, {});
   std::set<std::string> from_outside;
   for (const Candidate& c : search.candidates) {
     const std::vector<std::string> outside = outside_causes_of(c);
     from_outside.insert(outside.begin(), outside.end());
-    record.explanations.push_back({library_effects_of(c), outside, c.with_unknown, place_of(c.fit),
+    record.explanations.push_back({library_effects_of(c), outside, c.with_unknown, place_of(c.fit, c.effects),
                                    evidence_over_nothing(c, search.candidates), c.log_prior, c.other_variants,
                                    c.probability});
   }

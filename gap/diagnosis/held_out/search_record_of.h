@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 
@@ -10,8 +9,8 @@
 
 namespace slipway::gap {
 
-// The record of a search: what is told of explanations, fits and causes. `held_out`: as LinearHeldOut.
+// The record of a search: what is told of explanations, fits and causes.
 SearchRecord record_of(const ExplanationSearch& search, const ClosedShares& shares,
-                       std::span<const std::string> library, const ClosedShares::Rms& held_out);
+                       std::span<const std::string> library);
 
 }  // namespace slipway::gap

@@ -156,13 +156,6 @@ Eigen::VectorXd NoiseModel::deviations_above_belief() const {
   return off;
 }
 
-ScaleOffBelief NoiseModel::furthest_above_belief() const {
-  Eigen::Index furthest = 0;
-  const double deviations = deviations_above_belief().maxCoeff(&furthest);
-  return {kScaleNames[static_cast<std::size_t>(furthest)], std::exp(deviations * options_.prior_std),
-          deviations};
-}
-
 ScatterLikelihood NoiseModel::likelihood_of(const Eigen::VectorXd& residuals,
                                             const Eigen::MatrixXd& systematic, std::size_t threads) const {
   std::vector<ScatterLikelihood::Drive> drives;

@@ -16,13 +16,6 @@ namespace slipway::gap {
 
 class ScatterLikelihood;
 
-// A scale that drives asked for, beside what was believed of it.
-struct ScaleOffBelief {
-  std::string_view of;      // "the soil's stiffness", "currents"
-  double times = 1.0;       // what was believed
-  double deviations = 0.0;  // of the prior, of the logarithm
-};
-
 struct NoiseOptions {
   NoiseScales initial;     // what the scales are believed to be before the drives
   double prior_std = 1.2;  // of the logarithms of the scales around them: a factor of 3 is no surprise
@@ -61,8 +54,6 @@ class NoiseModel {
   // How far each scale's logarithm lies above what was believed of it, in its prior's deviations. The scatter
   // within drives is relative to that between them and has none of its own.
   Eigen::VectorXd deviations_above_belief() const;
-  // The scale that lies furthest above what was believed.
-  ScaleOffBelief furthest_above_belief() const;
   // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.
   double log_normalisation() const { return log_prior(scales_) - 0.5 * log_determinant_; }
   double log_determinant() const { return log_determinant_; }

@@ -193,8 +193,6 @@ struct EffectMarginal {
   // Of the gap that re-tuning leaves on drives held out of the fit, what goes with it, within 0 and 1; see
   // effect_marginals.h.
   double closed_share = 0.0;
-  // Logarithm of the evidence of the best explanation with it over that of the best one without it.
-  double log_evidence = 0.0;
   double calibrated = 0.0;  // probability that it is at work, by which it is named: see calibration.h
 };
 

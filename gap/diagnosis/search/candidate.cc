@@ -13,6 +13,12 @@ bool says_nothing(const Candidate& c) {
   return c.effects.empty() && !c.with_unknown;
 }
 
+// A prior of something known, and of the same with something else besides: as probable as something else is
+// alone.
+LogPrior beside_something_else(const PriorOptions& options, double log_alone) {
+  return {log_alone, log_alone + std::log(options.something_else)};
+}
+
 }  // namespace
 
 double evidence_over_nothing(const Candidate& candidate, std::span<const Candidate> candidates) {
@@ -32,16 +38,6 @@ std::vector<std::string> outside_causes_of(const Candidate& candidate) {
   std::copy_if(candidate.effects.begin(), candidate.effects.end(), std::back_inserter(names), is_outside);
   return names;
 }
-
-namespace {
-
-// A prior of something known, and of the same with something else besides: as probable as something else is
-// alone.
-LogPrior beside_something_else(const PriorOptions& options, double log_alone) {
-  return {log_alone, log_alone + std::log(options.something_else)};
-}
-
-}  // namespace
 
 LogPrior log_prior_of_nothing(const PriorOptions& options) {
   return {std::log(options.nothing), std::log(options.something_else)};
@@ -84,20 +80,6 @@ std::vector<double> normalised(std::span<const double> log_weights) {
   for (double& w : weights) sum += w = std::exp(w - most);
   for (double& w : weights) w /= sum;
   return weights;
-}
-
-void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
-  std::vector<double> weights;
-  for (const Candidate& c : candidates)
-    weights.push_back(log_weight(c.log_evidence, c.log_prior, c.other_variants, options.share));
-  const std::vector<double> probabilities = normalised(weights);
-  for (std::size_t i = 0; i < probabilities.size(); ++i) candidates[i].probability = probabilities[i];
-}
-
-void rank(std::span<Candidate> candidates, const EvidenceOptions& options) {
-  weigh(candidates, options);
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
 }
 
 }  // namespace slipway::gap

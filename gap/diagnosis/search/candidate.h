@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -46,10 +47,28 @@ double log_weight(double log_evidence, double log_prior, std::span<const std::ve
 // Weights that add up to 1.
 std::vector<double> normalised(std::span<const double> log_weights);
 
-// The candidates' probabilities from evidence and prior.
-void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
+// Writes the probabilities of candidates, or of what else has their evidence, prior and variants.
+template <class Explanation>
+void weigh(std::span<Explanation> explanations, double share) {
+  std::vector<double> weights;
+  for (const Explanation& e : explanations)
+    weights.push_back(log_weight(e.log_evidence, e.log_prior, e.other_variants, share));
+  const std::vector<double> probabilities = normalised(weights);
+  for (std::size_t i = 0; i < probabilities.size(); ++i) explanations[i].probability = probabilities[i];
+}
+inline void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
+  weigh(candidates, options.share);
+}
 // Weighs them and puts the most probable first.
-void rank(std::span<Candidate> candidates, const EvidenceOptions& options);
+template <class Explanation>
+void rank(std::span<Explanation> explanations, double share) {
+  weigh(explanations, share);
+  std::stable_sort(explanations.begin(), explanations.end(),
+                   [](const Explanation& a, const Explanation& b) { return a.probability > b.probability; });
+}
+inline void rank(std::span<Candidate> candidates, const EvidenceOptions& options) {
+  rank(candidates, options.share);
+}
 
 // What a set of effects is believed by before the drives (natural logarithms): alone, and with something else
 // besides. A set's share of its prior is divided by the number of effects in the library, or of their pairs.

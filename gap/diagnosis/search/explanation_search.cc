@@ -217,8 +217,7 @@ class Searcher {
   // A variant that was screened beside a fit, with the derivatives that screening took there.
   std::size_t add_fit(const Hypothesis& hypothesis, const ScreenedEffect& screened,
                       const FittedExplanation& beside) {
-    std::vector<double> at = hypothesis.neutral();
-    std::copy(beside.x.begin(), beside.x.end(), at.begin());
+    const std::vector<double> at = started_at(hypothesis, beside);
     Eigen::MatrixXd jacobian(beside.jacobian.rows(), beside.jacobian.cols() + screened.columns.cols());
     jacobian << beside.jacobian, screened.columns;
     return add_fit(hypothesis, {screened.start, at, beside.residuals, jacobian});
