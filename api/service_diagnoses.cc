@@ -12,7 +12,7 @@
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/json/faults.h"
 #include "api/uploads/uploaded_campaigns.h"
-#include "gap/diagnosis/reference_diagnosis.h"
+#include "gap/diagnosis/diagnosis.h"
 
 namespace slipway::api {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "api/files/campaign/drive_campaign_source.h"
+#include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/drive_watch.h"
-#include "gap/diagnosis/reference_diagnosis.h"
 
 // The practice campaigns: 44 drives of a minute each, without an effect (p01) and with slip sinkage (p03).
 namespace slipway::gap {

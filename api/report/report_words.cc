@@ -72,9 +72,8 @@ std::string outside_parameters_words(const gap::ResidualShape& cause) {
 
 std::string no_drive_offered_words() {
   return fmt::format(
-      "No further drive on a plane would tell much more: none of those compared is expected to bring {:g} "
-      "bits "
-      "of which explanation is true.",
+      "Of the single drives on a plane that were compared, none is expected to bring {:g} bits of which "
+      "explanation is true.",
       json::kLeastOfferedBits);
 }
 

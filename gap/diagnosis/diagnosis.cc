@@ -20,6 +20,8 @@
 #include "gap/diagnosis/describe/offered_model.h"
 #include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
+#include "gap/diagnosis/follow/followed_drives.h"
+#include "gap/diagnosis/follow/since_reference.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
@@ -44,7 +46,7 @@ DiagnosisOptions with_reference(DiagnosisOptions options) {
 }
 
 // Fractions of a diagnosis that are done by then.
-constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79;
+constexpr double kPrepared = 0.18, kSearched = 0.58, kSearchedAgain = 0.79, kFollowed = 0.82;
 
 class Diagnoser {
  public:
@@ -66,7 +68,9 @@ class Diagnoser {
     if (auto searched = search(options_, kPrepared, kSearched); !searched) return fail(searched.error());
     if (auto searched = search_again(); !searched) return fail(searched.error());
     const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
-    decide_from_search(drives);
+    weigh_causes(drives);
+    decide_from_search();
+    if (auto asked = follow_before_saying_nothing(); !asked) return fail(asked.error());
     compare_look_alikes();
     if (auto closed = close_gap(drives); !closed) return fail(closed.error());
     describe_parameters();
@@ -193,7 +197,7 @@ class Diagnoser {
                   most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
   }
 
-  void decide_from_search(const DriveResampling& drives) {
+  void weigh_causes(const DriveResampling& drives) {
     progress_.report("weighing single effects", kSearchedAgain);
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
@@ -205,7 +209,9 @@ class Diagnoser {
     d_.search.scatter_deviations.assign(scatter.begin(), scatter.end());
     d_.search.parameters_gain = gain_of_parameters(prepared_, campaign_, options_);
     d_.search.hidden_share = hidden_share(search_.screened, options_.description);
+  }
 
+  void decide_from_search() {
     const Decision decision = decide(d_.search, options_.evidence.share, options_.decision);
     best_ = decision.answer;
     beside_ = decision.beside;
@@ -223,11 +229,29 @@ class Diagnoser {
       d_.outside->closed_share = d_.search.share_of(d_.outside->cause);
     }
     d_.effects = found_effects(best_fit(), decision.names, d_.marginals);
-    if (finds_nothing_missing(d_.verdict))
-      d_.least_detectable = least_detectable_of(search_.screened, options_.description);
+    d_.least_detectable = finds_nothing_missing(d_.verdict)
+                              ? least_detectable_of(search_.screened, options_.description)
+                              : std::vector<LeastDetectable>{};
     auto words = words_of(decision, d_.search, d_.marginals, d_.outside);
     d_.reason = std::move(words.reason);
     d_.overturned_by = std::move(words.overturned_by);
+  }
+
+  // That nothing is missing is said only where the drives, one after the other, don't say that they changed:
+  // of the reference where there is one, else of the first of them.
+  Result<void> follow_before_saying_nothing() {
+    const bool has_first = campaign_.drives.size() > kDrivesLearntFrom;
+    if (!finds_nothing_missing(d_.verdict) || (!campaign_.reference && !has_first)) return {};
+    PartOfProgress progress(progress_, kSearchedAgain, kFollowed);
+    auto followed = campaign_.reference
+                        ? follow_drives(campaign_, {}, options_, progress)
+                        : follow_since_first(campaign_, kDrivesLearntFrom, {}, options_, progress);
+    if (!followed) return fail(followed.error());
+    d_.search.drives_changed = followed->alarm.has_value();
+    if (!d_.search.drives_changed) return {};
+    decide_from_search();
+    d_.reason = changed_words(*followed, campaign_.reference.get());
+    return {};
   }
 
   std::vector<ComparedSet> compared_sets() const {
@@ -400,6 +424,13 @@ Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions
   if (!faults.empty())
     return fail(ErrorCode::kInvalidRequest, "an effect to withhold is not in the catalogue", faults);
   return Diagnoser(campaign, options, progress).run();
+}
+
+Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                 const DiagnosisOptions& options, Progress& progress) {
+  const auto since = since_reference(reference, campaign, options, progress);
+  if (!since) return fail(since.error());
+  return diagnose(*since, options, progress);
 }
 
 }  // namespace slipway::gap

@@ -13,4 +13,8 @@ namespace slipway::gap {
 Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions& options,
                            Progress& progress);
 
+// What has changed since the reference drives. Errors: of this and of since_reference.
+Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                 const DiagnosisOptions& options, Progress& progress);
+
 }  // namespace slipway::gap

@@ -1,76 +1,34 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/diagnosis/change_detector.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/follow/change_detector.h"
+#include "gap/diagnosis/follow/followed_drives.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 
 namespace slipway::gap {
 
-// Whether drives, in their order, still are what healthy ones taught: see change_detector.h. Which kinds of
-// change there are, and in which directions the difference is open, is of all the drives of a watch: with
-// more of them the evidence up to an earlier one may differ in the second decimal of its logarithm.
+// Whether drives, in their order, still are what healthy ones taught.
 struct WatchOptions {
   ChangeOptions change;
-  int learn = 12;  // first drives of the campaign that are taken as healthy, where no reference is given
-  bool diagnose = true;  // what has changed, after an alarm
+  int learn = static_cast<int>(kDrivesLearntFrom);  // first drives of the campaign that are taken as healthy,
+                                                    // where no reference is given
+  bool diagnose = true;                             // what has changed, after an alarm
 };
-
-struct WatchedDrive {
-  std::string id;
-  std::size_t windows = 0;      // of use: positions and attitudes on the terrain; a drive of 0 says nothing
-  double log10_evidence = 0.0;  // up to this drive
-  bool alarm = false;           // at this drive or before
-};
-
-// What could have changed, and its share of the evidence at the alarm (without one: at the last drive);
-// shares add up to 1. "unknown": nothing of the library.
-struct ChangeShare {
-  std::string name;
-  double share = 0.0;
-};
-
-// Of the evidence of a change, what the drives together have that are told as the range of its onset.
-inline constexpr double kOnsetPart = 0.9;
 
 // Of the first drives, how many a watch without a reference learns from.
 inline constexpr int kFewestLearnt = 3, kMostLearnt = 2000;
 
-struct DriveWatch {
+struct DriveWatch : FollowedDrives {
   std::string campaign, campaign_fingerprint;
   std::string reference, reference_fingerprint;  // the campaign's own name where its first drives were learnt
   std::size_t learnt_drives = 0;
-  double alpha = 0.0;
-  std::vector<WatchedDrive> drives;
-  std::vector<std::string> notes;  // of the drives, and of what was taken from the reference
-  // Whether the evidence stands at 1 / alpha at the last drive alone, which another must confirm.
-  bool awaits_another() const {
-    return !alarm && !drives.empty() && drives.back().log10_evidence >= -std::log10(alpha);
-  }
-  // Drives without a window of use.
-  std::size_t silent_drives() const {
-    return static_cast<std::size_t>(
-        std::count_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.windows == 0; }));
-  }
-  std::optional<std::size_t> alarm;  // index into `drives`
-  std::size_t since = 0;             // with an alarm: the most probable first drive that differs
-  // With an alarm, of the evidence at the alarm: what each drive up to then has of it as the first that
-  // differs, and the fewest drives running that have kOnsetPart of it.
-  std::vector<double> onset_shares;
-  DriveRange onset;
-  // Most probable first: a first pointer, by derivatives at the moment of the alarm. Where there is a
-  // diagnosis, that is the answer.
-  std::vector<ChangeShare> causes;
-  // The first drive that is diagnosed: of those that are about as probable as `since` the last, since drives
-  // before it may be healthy, and would blur what has changed.
-  std::size_t diagnosed_since = 0;
+  std::vector<std::string> notes;      // of the drives, and of what was taken from the reference
   std::optional<Diagnosis> diagnosis;  // of the drives from there on
   // The campaign that was diagnosed, for documents.
   std::optional<DriveCampaign> diagnosed;

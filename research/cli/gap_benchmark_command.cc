@@ -28,8 +28,11 @@
 #include "api/files/whole_file.h"
 #include "api/json/faults.h"
 #include "core/largest_exact_whole.h"
+#include "gap/diagnosis/decide/decision.h"
+#include "gap/diagnosis/decide/posterior.h"
 #include "gap/diagnosis/diagnosis.h"
-#include "gap/diagnosis/reference_diagnosis.h"
+#include "gap/diagnosis/follow/since_reference.h"
+#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "research/benchmark/baselines.h"
 #include "research/benchmark/benchmark_score.h"
 #include "research/benchmark/sealed_campaigns.h"
@@ -156,8 +159,49 @@ Result<void> told_by_reference(const GapBenchmarkCommand& options, const api::Ca
   return {};
 }
 
+Result<std::string> bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string file_of(const std::string& campaign, const Given& given) {
+  if (given.oracle) return campaign + "-oracle.json";
+  std::string file = campaign;
+  for (const std::string& effect : given.withheld) file += "-without-" + effect;
+  return file + ".json";
+}
+
+// The decision alone, from what a search left with --keep-search.
+Result<Timed> decided_again(const GapBenchmarkCommand& options, const std::string& name, const Given& given) {
+  const fs::path file = fs::path(options.replay) / file_of(name, given);
+  const auto bytes = bytes_of(file);
+  if (!bytes) return fail(bytes.error());
+  auto record = api::json::read_search_record(*bytes, file.string());
+  if (!record) return fail(record.error());
+  const gap::DiagnosisOptions how;
+  gap::Diagnosis diagnosis;
+  const double share = how.evidence.share * (record->with_reference ? how.reference.evidence_share : 1.0);
+  gap::weigh(*record, share);
+  const gap::Decision decision = gap::decide(*record, share, how.decision);
+  diagnosis.campaign = name;
+  diagnosis.verdict = decision.verdict;
+  diagnosis.partial = decision.partial;
+  diagnosis.marginals = gap::effect_marginals(*record);
+  for (const std::string& effect : decision.names) diagnosis.effects.push_back({.name = effect});
+  for (const gap::SearchRecord::Explanation& e : record->explanations) {
+    gap::ComparedSet& set = diagnosis.candidates.emplace_back();
+    set.effects = e.effects;
+    set.with_unknown = e.unknown();
+    set.probability = e.probability;
+  }
+  diagnosis.search = std::move(*record);
+  return Timed{std::move(diagnosis), 0.0};
+}
+
 Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                         const std::string& name, const Given& given) {
+  if (!options.replay.empty()) return decided_again(options, name, given);
   const auto start = std::chrono::steady_clock::now();
   auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
   if (!campaign) return fail(campaign.error());
@@ -181,13 +225,9 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   });
   if (!diagnosis) return fail(diagnosis.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  std::string file = name;
-  if (given.oracle) file += "-oracle";
-  for (const std::string& effect : given.withheld)
-    if (!given.oracle) file += "-without-" + effect;
   const auto keep = [&](const std::string& folder, const auto& document) -> Result<void> {
     if (folder.empty()) return {};
-    return api::write_whole_file(fs::path(folder) / (file + ".json"), document());
+    return api::write_whole_file(fs::path(folder) / file_of(name, given), document());
   };
   const auto kept =
       keep(options.keep, [&] { return api::json::diagnosis_document(*campaign, *diagnosis); }).and_then([&] {
@@ -202,12 +242,6 @@ void tell(std::size_t number, std::size_t of, const std::string& name, const Tim
   for (const gap::FoundEffect& effect : timed.diagnosis.effects) effects.push_back(effect.name);
   std::cerr << fmt::format("[{}/{}] {}: {} {} ({:.1f} s)\n", number, of, name,
                            gap::name_of(timed.diagnosis.verdict), fmt::join(effects, " + "), timed.seconds);
-}
-
-Result<std::string> bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
-  return std::string{std::istreambuf_iterator<char>(stream), {}};
 }
 
 // answers.json, with traces.csv where there is one.
@@ -376,7 +410,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   const auto names = campaigns_in(options);
   if (!names) return refuse_unreadable(names.error());
   // What can't be read or written is said before the first diagnosis, not after an hour of them.
-  for (const std::string& name : *names)
+  for (const std::string& name : options.replay.empty() ? *names : std::vector<std::string>{})
     if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
       return refuse_unreadable(campaign.error());
   for (const std::string& folder : {options.keep, options.keep_search})
@@ -413,6 +447,11 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       "--keep-search", options->keep_search,
       "folder for what each decision was made from, NAME.json: decisions are judged again from it "
       "without a diagnosis");
+  command
+      ->add_option("--replay", options->replay,
+                   "folder of what --keep-search wrote: the decisions are made again from it and scored, "
+                   "without a diagnosis")
+      ->excludes("--keep-search");
   command->add_option("--csv", options->csv, "file for the scores, one line a campaign");
   command->add_option("--marginals-csv", options->marginals_csv,
                       "file for the marginal probabilities, one line a campaign and effect");

@@ -20,6 +20,7 @@ struct GapBenchmarkCommand {
   int threads = 0;                // 0: as many as the machine has
   std::string keep;               // folder for each diagnosis.json; empty: none
   std::string keep_search;        // folder for each search-record.json; empty: none
+  std::string replay;             // folder of such records to decide from; empty: diagnose
   std::string csv;                // file for one line a campaign; empty: none
   std::string marginals_csv;      // file for one line a campaign and effect; empty: none
   std::string withheld_csv;       // file for one line an effect withheld; empty: none

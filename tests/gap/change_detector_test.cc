@@ -1,4 +1,4 @@
-#include "gap/diagnosis/change_detector.h"
+#include "gap/diagnosis/follow/change_detector.h"
 
 #include <gtest/gtest.h>
 

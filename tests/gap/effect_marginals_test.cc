@@ -110,9 +110,6 @@ TEST(ClosedShares, OfAPairAddUpToWhatThePairCloses) {
   EXPECT_NEAR(shares.of("a") + shares.of("b"), 1.8 / 2.0, 1e-12);
   EXPECT_NEAR(shares.of("c"), 0.25, 1e-12) << "by its derivatives";
   EXPECT_EQ(shares.of("d"), 0.0) << "not looked for";
-  EXPECT_NEAR(shares.beside_others("a"), 1.4 / 1.6, 1e-12);
-  EXPECT_NEAR(shares.beside_others("b"), 0.8, 1e-12) << "b closes 0.8 of the 1.0 that a leaves";
-  EXPECT_EQ(shares.beside_others("c"), 0.0) << "not fitted";
 
   const std::vector<std::string> library{"c", "b", "a"};
   const std::vector<EffectMarginal> marginals = effect_marginals(record_of(search, shares, library));
@@ -127,7 +124,6 @@ TEST(ClosedShares, AreNoneWhereRetuningLeftNoGap) {
   ExplanationSearch search = search_with({0.98, 0.99});
   search.candidates = {candidate({}, 0, 0.9), candidate({"a"}, 1, 0.1)};
   EXPECT_EQ(ClosedShares(&rms_of, search).of("a"), 0.0);
-  EXPECT_EQ(ClosedShares(&rms_of, search).beside_others("a"), 0.0);
 }
 
 }  // namespace

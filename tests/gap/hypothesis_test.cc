@@ -6,7 +6,9 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/angle.h"
@@ -194,6 +196,96 @@ TEST(Hypothesis, SoilThatDriftsIsWeakerUnderTheLastDriveAloneByAllOfIt) {
     largest = std::max(largest, std::abs(weak[i] - whole[i]));
   }
   EXPECT_GT(largest, 0.01) << "strength matters on this slope";
+}
+
+Hypothesis with_outside(const DriveCampaign& campaign, std::string_view cause, std::string_view label) {
+  for (EffectVariant variant : find_outside(cause)->variants(campaign))
+    if (variant.label == label) {
+      variant.effect = cause;
+      return Hypothesis(campaign, {variant});
+    }
+  throw std::invalid_argument("no such variant");
+}
+
+// Every reading of a channel, as it is and as a sensor would show it that reads wrongly.
+template <class Check>
+void for_each_shown(const Predicted& predicted, const Hypothesis& hypothesis, double value,
+                    const Check& check) {
+  std::vector<double> x = hypothesis.neutral();
+  const std::vector<double> right = hypothesis.predict(predicted.model, x);
+  x.back() = value;
+  const std::vector<double> shown = hypothesis.predict(predicted.model, x);
+  std::size_t i = 0;
+  for (std::size_t w = 0; w < predicted.model.windows().size(); ++w)
+    for (const Observation& o : predicted.model.windows()[w].observations) {
+      check(w, o, right[i], shown[i]);
+      ++i;
+    }
+}
+
+TEST(Hypothesis, AConstantMayBeOnTheCurrentsOfOneSideOrOnAYawRateAlone) {
+  const Predicted predicted(campaign_on({sim::loose_sand()}));
+  const sim::RoverModel& rover = *predicted.campaign.rover;
+  for_each_shown(predicted, with_outside(predicted.campaign, "current_offset", "left side"), 0.03,
+                 [&](std::size_t, const Observation& o, double right, double shown) {
+                   const bool left = o.channel == Channel::kCurrent && o.wheel >= 0 &&
+                                     rover.wheels[static_cast<std::size_t>(o.wheel)].position_m.y() > 0.0;
+                   EXPECT_NEAR(shown - right, left ? 0.03 : 0.0, 1e-12) << name_of(o.channel);
+                 });
+  for_each_shown(predicted, with_outside(predicted.campaign, "motion_offset", "yaw_rate"), -0.001,
+                 [&](std::size_t, const Observation& o, double right, double shown) {
+                   EXPECT_NEAR(shown - right, o.channel == Channel::kYawRate ? -0.001 : 0.0, 1e-12);
+                 });
+}
+
+// A gyroscope turned about shows minus what the rover turns, and the channel is minus what was commanded.
+TEST(Hypothesis, AReadingOfTheWrongSignIsMinusWhatItShouldBe) {
+  const Predicted predicted(campaign_on({sim::loose_sand()}));
+  const sim::DriveCommand& command = predicted.campaign.drives.front().command;
+  const double commanded = command.speed_m_s * command.curvature_1_m;
+  for_each_shown(predicted, with_outside(predicted.campaign, "wrong_scale", "yaw_rate"), -2.0,
+                 [&](std::size_t, const Observation& o, double right, double shown) {
+                   const double expected = o.channel == Channel::kYawRate ? -right - 2.0 * commanded : right;
+                   EXPECT_NEAR(shown, expected, 1e-12);
+                 });
+  for_each_shown(predicted, with_outside(predicted.campaign, "wrong_scale", "current"), -2.0,
+                 [&](std::size_t, const Observation& o, double right, double shown) {
+                   EXPECT_NEAR(shown, o.channel == Channel::kCurrent ? -right : right, 1e-12);
+                 });
+}
+
+TEST(Hypothesis, ALateReadingIsTheOneOfAWindowBeforeByAsMuchAsItIsLate) {
+  const Predicted predicted(campaign_on({sinking_sand()}));
+  const auto windows = predicted.model.windows();
+  ASSERT_GE(windows.size(), 2U);
+  const double apart = windows[1].mid_s() - windows[0].mid_s();
+  std::vector<double> before(6, kNotMeasured);
+  for_each_shown(predicted, with_outside(predicted.campaign, "late_reading", "current"), 0.5 * apart,
+                 [&](std::size_t w, const Observation& o, double right, double shown) {
+                   if (o.channel != Channel::kCurrent) {
+                     EXPECT_EQ(shown, right);
+                     return;
+                   }
+                   double& last = before[static_cast<std::size_t>(o.wheel)];
+                   if (w == 0) EXPECT_EQ(shown, right);
+                   if (w == 1) EXPECT_NEAR(shown, 0.5 * (last + right), 1e-12);
+                   last = right;
+                 });
+}
+
+// Of a drive on ground that weakens along it the middle is as it was, and its windows differ by more towards
+// the ends.
+TEST(Hypothesis, GroundThatWeakensAlongADriveIsStrongerBeforeItsMiddleAndWeakerBehind) {
+  const Predicted predicted(campaign_on({sim::loose_sand()}));
+  for_each_shown(predicted, with_outside(predicted.campaign, "soil_along_drive", ""), -0.2,
+                 [&](std::size_t w, const Observation& o, double right, double shown) {
+                   if (o.channel != Channel::kSlip) return;
+                   const double middle_s = 30.0;
+                   if (predicted.model.windows()[w].mid_s() < middle_s)
+                     EXPECT_LT(shown, right + 1e-9);
+                   else
+                     EXPECT_GT(shown, right - 1e-9);
+                 });
 }
 
 TEST(Hypothesis, BelievesAParameterAsWellAsItWasMeasuredAndTheOthersAsUsual) {

@@ -99,11 +99,58 @@ TEST(WrenchOf, APushOnTheMapKeepsItsDirectionThereAndALoadIsUpright) {
 
 TEST(SoilDrift, IsAParabolaOverTheDrives) {
   const SoilDrift drift{.last = -0.1, .middle = 0.2};
-  EXPECT_NEAR(drift.factor(0, 9), 1.0, 1e-12);
-  EXPECT_NEAR(drift.factor(4, 9), 1.0 - 0.05 + 0.2, 1e-12);
-  EXPECT_NEAR(drift.factor(8, 9), 0.9, 1e-12);
-  EXPECT_EQ(drift.factor(0, 1), 1.0) << "of one drive it is the soil's own strength";
-  EXPECT_GT((SoilDrift{.last = -3.0, .middle = 0.0}.factor(8, 9)), 0.0);
+  EXPECT_NEAR(drift.factor({.order = -1.0}), 1.0, 1e-12);
+  EXPECT_NEAR(drift.factor({.order = 0.0}), 1.0 - 0.05 + 0.2, 1e-12);
+  EXPECT_NEAR(drift.factor({.order = 1.0}), 0.9, 1e-12);
+  EXPECT_GT((SoilDrift{.last = -3.0, .middle = 0.0}.factor({.order = 1.0})), 0.0);
+}
+
+TEST(SoilDrift, GrowsAlongEachDriveAndOverTheMap) {
+  EXPECT_NEAR((SoilDrift{.end = -0.1}.factor({.order = -1.0, .along = 1.0})), 0.9, 1e-12);
+  EXPECT_NEAR((SoilDrift{.over = {0.1, 0.2}}.factor({.order = -1.0, .on_map = {-1.0, 0.5}})), 1.0, 1e-12);
+}
+
+// Of the whole rover neither the force nor the moment changes: what weighs less on one wheel weighs more on
+// others.
+TEST(OutsideCauses, AMomentInsideTheSuspensionIsNoneOnTheRover) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  for (sim::EffectVariant variant : find_outside("moment_inside_suspension")->variants(campaign)) {
+    variant.effect = "moment_inside_suspension";
+    const Hypothesis hypothesis(campaign, {variant});
+    std::vector<double> x = hypothesis.neutral();
+    x.back() = 7.0;
+    const OutsideForces forces = hypothesis.state(x).outside;
+    ASSERT_GE(forces.at_wheel_n.size(), 3U);
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    for (const auto& [wheel, at] : forces.at_wheel_n) {
+      force += at;
+      moment += campaign.rover->wheels[wheel].position_m.cross(at);
+    }
+    EXPECT_NEAR(force.norm(), 0.0, 1e-12);
+    EXPECT_NEAR(moment.y(), 0.0, 1e-12);
+    EXPECT_NEAR(moment.x(), 0.0, 1e-12);
+  }
+}
+
+TEST(OutsideCauses, EachHasAWayToActAndWordsForBothSigns) {
+  DriveCampaign campaign = campaign_of_one_soil();
+  campaign.drives.resize(5);
+  for (const OutsideCause& cause : outside_catalogue()) {
+    EXPECT_TRUE(cause.act != nullptr || cause.show != nullptr) << cause.name;
+    for (sim::EffectVariant variant : cause.variants(campaign)) {
+      variant.effect = cause.name;
+      const Hypothesis hypothesis(campaign, {variant});
+      std::vector<double> x = hypothesis.neutral();
+      const auto said = [&](double to) {
+        for (std::size_t p = hypothesis.nuisance_count(); p < x.size(); ++p) {
+          const Parameter& parameter = hypothesis.parameters()[p];
+          x[p] = std::clamp(to * parameter.std, parameter.lowest, parameter.highest);
+        }
+        return cause.words(hypothesis.outside_values(cause.name, x), campaign);
+      };
+      EXPECT_NE(said(1.0), said(-1.0)) << cause.name << " " << variant.label;
+    }
+  }
 }
 
 sim::EffectVariant first_variant(std::string_view cause, const DriveCampaign& campaign) {

@@ -27,7 +27,7 @@ FOLDERS = {
     "dem": [".", "import", "write"],
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
     "planner": ["problem", "search", "judge", "maps", "."],
-    "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/decide", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
+    "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/follow", "diagnosis/decide", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "steps", "uploads", "requests", "jobs",
             "documents", {"documents/soil", "documents/diagnosis"}, "export", "terrain_views", "report", "maps", "."],
     "server": ["http", "operations", "routes", "cli/terminal", "cli/inquiry", "cli/commands", {"cli", "."}],

@@ -93,8 +93,8 @@ Decision decide(const SearchRecord& record, double evidence_share, const Decisio
   decision.names.assign(names.begin(), names.end());
   if (names.empty()) {
     const double missing = decision.missing_probability;
-    const bool alarm =
-        !decision.adequate || (1.0 - missing) * options.false_alarm < missing * options.missed_alarm;
+    const bool alarm = !decision.adequate || record.drives_changed ||
+                       (1.0 - missing) * options.false_alarm < missing * options.missed_alarm;
     decision.answer = decision.beside =
         alarm ? most_probable(record, [](const Explanation& e) { return e.unknown(); })
               : most_probable(record, [](const Explanation& e) { return !e.unknown() && e.effects.empty(); });

@@ -32,7 +32,8 @@ inline bool finds_nothing_missing(Verdict verdict) {
 // (adequacy.h), effects that change what the ground does to all wheels are one class, "another wheel law",
 // and none of them is named. Beside names, something unknown is said to be at work where it is more probable
 // than not, or the model is not adequate. Without names the answer is `unknown` where that loses less than an
-// answer that nothing is missing, by false_alarm and missed_alarm, or the model is not adequate. The
+// answer that nothing is missing, by false_alarm and missed_alarm, or the model is not adequate, or the
+// drives have changed along their way. The
 // probability that something is missing is that of all that is unknown and of each set of effects by so much
 // as its effects would be at work, were they certain, by the share of the gap that they close: what closes
 // nothing is not missing. Printed probabilities are those of the posterior, whatever is decided.

@@ -36,8 +36,7 @@ struct SearchRecord {
   };
   struct Cause {
     std::string name;
-    double share = 0.0;          // of the held-out gap that it closes: ClosedShares::of
-    double beside_others = 0.0;  // of what the others leave: ClosedShares::beside_others
+    double share = 0.0;  // of the held-out gap that it closes: ClosedShares::of
   };
 
   bool with_reference = false;
@@ -47,7 +46,8 @@ struct SearchRecord {
   std::vector<Cause> causes;  // every effect of the library, then every cause from outside that was compared
   std::vector<double> scatter_deviations;  // of each scale's logarithm, above what was believed of it
   double parameters_gain = 0.0;            // log evidence of free soils and motors over nominal ones
-  double hidden_share = 1.0;  // of the variants, those that these drives would not surely have shown
+  double hidden_share = 1.0;    // of the variants, those that these drives would not surely have shown
+  bool drives_changed = false;  // that they, one after the other, say so: see followed_drives.h
 
   double share_of(const std::string& cause) const;  // 0 of one that is not among them
 };

@@ -59,7 +59,7 @@ std::string unknown_words(const Decision& decision, std::span<const EffectMargin
   return fmt::format(
       "something is missing (probability {:.2f}) that no effect of the library explains surely: "
       "something unknown has {:.2f}{}{}",
-      1.0 - decision.marginals.nothing, decision.marginals.unknown, likely.empty() ? "" : ", ",
+      decision.missing_probability, decision.marginals.unknown, likely.empty() ? "" : ", ",
       fmt::join(likely, ", "));
 }
 
@@ -111,6 +111,22 @@ DecisionWords words_of(const Decision& decision, const SearchRecord& record,
   }
   return {"no gap was found, but these drives could not have shown effects of half their usual size",
           or_rival("drives that show an effect below the least size that these could have shown")};
+}
+
+std::string changed_words(const FollowedDrives& followed, const ReferenceBelief* reference) {
+  const WatchedDrive& at = followed.drives[*followed.alarm];
+  std::string words = fmt::format(
+      "something has changed: from drive {} on the drives are no longer what {} taught (evidence 10^{:.1f} "
+      "to "
+      "1 at drive {}), though no explanation of all of them together is more probable than none",
+      followed.drives[followed.since].id,
+      reference != nullptr ? fmt::format("the healthy drives of {}", reference->campaign)
+                           : "the drives before them",
+      at.log10_evidence, at.id);
+  if (!followed.causes.empty())
+    words += fmt::format("; a first pointer is {} ({:.2f} of the evidence)", followed.causes.front().name,
+                         followed.causes.front().share);
+  return words;
 }
 
 }  // namespace slipway::gap

@@ -18,9 +18,14 @@
 namespace slipway::gap {
 namespace {
 
-std::array<double, kBiasFunctions> functions_of(const WindowVariables& v, const LocationOptions& options) {
-  return {1.0, v.slope_deg / options.slope_scale_deg, std::clamp(v.slip, -1.0, 1.0),
-          v.speed_m_s < 0.0 ? -1.0 : 1.0, v.temperature_c / options.temperature_scale_c};
+std::array<double, kBiasFunctions> functions_of(const WindowVariables& v, double predicted,
+                                                const LocationOptions& options) {
+  return {1.0,
+          v.slope_deg / options.slope_scale_deg,
+          std::clamp(v.slip, -1.0, 1.0),
+          v.speed_m_s < 0.0 ? -1.0 : 1.0,
+          v.temperature_c / options.temperature_scale_c,
+          predicted};
 }
 
 // Of each window: the mean square of a channel's residuals in deviations; NaN where it has no reading.
@@ -88,7 +93,7 @@ SummedChannels sum_channels(const PreparedCampaign& prepared, const DriveCampaig
       sums.noise += deviation * deviation;
       sums.sum += residuals[row];
       ++sums.count;
-      const auto f = functions_of(variables[w], options);
+      const auto f = functions_of(variables[w], o.value - residuals[row], options);
       auto& of_drive = drives[prepared.windows[w].drive];
       for (int k = 0; k < kBiasFunctions; ++k) of_drive[k] += residuals[row] / deviation * f[k];
     }

@@ -39,8 +39,9 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
 
 // The parts of these that need no prediction.
 
-// Residuals in deviations times functions of the circumstances, summed over each drive's windows.
-constexpr int kBiasFunctions = 5;
+// Residuals in deviations times functions of the circumstances, and times what was predicted, by which a
+// wrong scale or sign shows whose mean is none; summed over each drive's windows.
+constexpr int kBiasFunctions = 6;
 using DriveSums = std::map<std::size_t, std::array<double, kBiasFunctions>>;  // by drive
 // The largest |t| over the functions, each drive's sums being one draw around 0: |sum| / sqrt(sum of
 // squares), with the signs of whole drives as `flipped` says.

@@ -46,15 +46,6 @@ double ClosedShares::of(const std::string& cause) const {
   return std::clamp(closed / gap_, 0.0, 1.0);
 }
 
-double ClosedShares::beside_others(const std::string& cause) const {
-  const Names all = explanation_with(cause);
-  if (all.empty()) return 0.0;
-  Names others = all;
-  others.erase(cause);
-  const double left = rms_of(others) - floor_;
-  return left > 0.0 ? std::clamp((rms_of(others) - rms_of(all)) / left, 0.0, 1.0) : 0.0;
-}
-
 std::vector<EffectMarginal> effect_marginals(const SearchRecord& record) {
   const Marginals probabilities = marginals_of(record);
   std::vector<EffectMarginal> marginals;

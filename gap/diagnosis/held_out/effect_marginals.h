@@ -24,9 +24,6 @@ class ClosedShares {
   // Of a cause in the most probable explanation that has it; of one that was not fitted by its derivatives
   // beside the re-tuned parameters. Within 0 and 1.
   double of(const std::string& cause) const;
-  // In the same explanation, of what the other causes leave above the floor: of a weak cause beside one that
-  // closes nearly all. 0 of a cause that was not fitted. Within 0 and 1.
-  double beside_others(const std::string& cause) const;
 
   // r of these causes together, as they were fitted; where they were not, that of nothing.
   using Names = std::set<std::string>;

@@ -43,8 +43,7 @@ SearchRecord record_of(const ExplanationSearch& search, const ClosedShares& shar
   }
   std::vector<std::string> causes(library.begin(), library.end());
   causes.insert(causes.end(), from_outside.begin(), from_outside.end());
-  for (const std::string& cause : causes)
-    record.causes.push_back({cause, shares.of(cause), shares.beside_others(cause)});
+  for (const std::string& cause : causes) record.causes.push_back({cause, shares.of(cause)});
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/angle.h"
@@ -128,6 +129,12 @@ DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size
     subset.drives.push_back(std::move(drive));
   }
   return subset;
+}
+
+DriveCampaign drives_between(const DriveCampaign& campaign, std::size_t from, std::size_t to) {
+  std::vector<std::size_t> drives(to - from);
+  std::iota(drives.begin(), drives.end(), from);
+  return subset_of(campaign, drives);
 }
 
 }  // namespace slipway::gap

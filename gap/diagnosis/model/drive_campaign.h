@@ -118,5 +118,7 @@ void take_same_rows_as_repeats(DriveCampaign& campaign);
 // The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
 // repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives);
+// The same of those from an index to before another.
+DriveCampaign drives_between(const DriveCampaign& campaign, std::size_t from, std::size_t to);
 
 }  // namespace slipway::gap

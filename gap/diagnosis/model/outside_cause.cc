@@ -43,6 +43,13 @@ std::vector<std::size_t> wheels_in(const OutsideValues& values) {
   return wheels;
 }
 
+std::vector<std::size_t> wheels_of_side(const sim::RoverModel& rover, double side) {
+  std::vector<std::size_t> wheels;
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k)
+    if (side * rover.wheels[k].position_m.y() > 0.0) wheels.push_back(k);
+  return wheels;
+}
+
 std::string names_of_wheels(const sim::RoverModel& rover, std::span<const std::size_t> wheels) {
   std::string names;
   for (const std::size_t k : wheels) names += (names.empty() ? "" : " and ") + rover.wheels[k].name;
@@ -51,14 +58,14 @@ std::string names_of_wheels(const sim::RoverModel& rover, std::span<const std::s
 
 bool OutsideForces::any() const {
   return along_n != 0.0 || along_by_speed_n != 0.0 || along_by_slope_n != 0.0 || !in_body_n.isZero(0.0) ||
-         !on_map_n.isZero(0.0) || load_n != 0.0 || turning_nm != 0.0 || !along_at_wheel_n.empty();
+         !on_map_n.isZero(0.0) || load_n != 0.0 || !moment_nm.isZero(0.0) || !at_wheel_n.empty();
 }
 
-double SoilDrift::factor(std::size_t drive, std::size_t drives) const {
+double SoilDrift::factor(const SoilPlace& at) const {
   constexpr double kLeast = 0.05;  // of the strength: a fit may try what leaves nothing
-  if (drives < 2) return 1.0;
-  const double t = 2.0 * static_cast<double>(drive) / (static_cast<double>(drives) - 1.0) - 1.0;
-  return std::max(kLeast, 1.0 + 0.5 * last * (t + 1.0) + middle * (1.0 - t * t));
+  const double t = at.order;
+  return std::max(
+      kLeast, 1.0 + 0.5 * last * (t + 1.0) + middle * (1.0 - t * t) + end * at.along + over.dot(at.on_map));
 }
 
 void strengthen(sim::Soil& soil, double factor) {
@@ -80,10 +87,11 @@ sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel&
       Eigen::Vector3d(forces.in_body_n.x() + forces.along_by_slope_n * climb, forces.in_body_n.y(), 0.0) +
       stance.R_MB.transpose() * Eigen::Vector3d(forces.on_map_n.x(), forces.on_map_n.y(), -forces.load_n);
   const Eigen::Vector3d at = rover.com_m + Eigen::Vector3d(forces.ahead_m, 0.0, forces.height_m);
-  wrench.moment_nm = at.cross(wrench.force_n) + forces.turning_nm * Eigen::Vector3d::UnitZ();
-  if (forces.along_at_wheel_n.empty()) return wrench;
+  wrench.moment_nm = at.cross(wrench.force_n) + forces.moment_nm;
+  if (forces.at_wheel_n.empty()) return wrench;
   wrench.at_wheel_n = sim::PerWheel<Eigen::Vector3d>(rover.wheels.size(), Eigen::Vector3d::Zero());
-  for (const auto& [wheel, force_n] : forces.along_at_wheel_n) wrench.at_wheel_n[wheel] = force_n * travel;
+  for (const auto& [wheel, force_n] : forces.at_wheel_n)
+    wrench.at_wheel_n[wheel] = force_n.x() * travel + Eigen::Vector3d(0.0, force_n.y(), force_n.z());
   return wrench;
 }
 

@@ -30,20 +30,29 @@ struct OutsideForces {
   double load_n = 0.0;                                  // downward
   // Of the point where these act on the body, from the centre of mass.
   double height_m = 0.0, ahead_m = 0.0;
-  double turning_nm = 0.0;                         // about the body's z axis
-  std::map<std::size_t, double> along_at_wheel_n;  // by the wheel's index
+  Eigen::Vector3d moment_nm = Eigen::Vector3d::Zero();  // on the body, about its own axes
+  // At the axles, by the wheel's index: along the travel, to the body's left, and up in the body.
+  std::map<std::size_t, Eigen::Vector3d> at_wheel_n;
 
   bool any() const;
 };
 
-// How the strength of all soils differs from drive to drive, as by the sun or by moisture: cohesion and
-// tan(friction angle) times 1 + last (t + 1) / 2 + middle (1 - t^2), t = -1 of the first drive to 1 of the
-// last.
-struct SoilDrift {
-  double last = 0.0, middle = 0.0;
+// Where on a campaign's ground, and when: what the strength of all soils may go with.
+struct SoilPlace {
+  double order = 0.0;               // of the drive: -1 of the first, and of the only one, to 1 of the last
+  double along = 0.0;               // along the drive, in time: -1 at its start to 1 at its end
+  Eigen::Vector2d on_map = {0, 0};  // -1 to 1 over the extent of all drives, each way
+};
 
-  bool any() const { return last != 0.0 || middle != 0.0; }
-  double factor(std::size_t drive, std::size_t drives) const;
+// How the strength of all soils changes: from drive to drive, as by the sun or by moisture, along each drive,
+// and over the map. Cohesion and tan(friction angle) are taken times
+// 1 + last (t + 1) / 2 + middle (1 - t^2) + end a + over (x, y), with t the order, a along and (x, y) on_map.
+struct SoilDrift {
+  double last = 0.0, middle = 0.0, end = 0.0;
+  Eigen::Vector2d over = {0, 0};
+
+  bool any() const { return last != 0.0 || middle != 0.0 || end != 0.0 || !over.isZero(0.0); }
+  double factor(const SoilPlace& at) const;
 };
 // Cohesion and tan(friction angle) of a soil times this.
 void strengthen(sim::Soil& soil, double factor);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -87,8 +88,69 @@ std::vector<sim::EffectVariant> wheel_forces(const DriveCampaign& campaign) {
   return all;
 }
 
-void pull_at_wheels(const Values& values, ModelState& state) {
-  for (const std::size_t k : wheels_in(values)) state.outside.along_at_wheel_n[k] += values.at("force_n");
+// At each of the wheels, times the number that its field has.
+template <int Axis>
+void force_at_wheels(const Values& values, ModelState& state) {
+  for (const std::size_t k : wheels_in(values))
+    state.outside.at_wheel_n.try_emplace(k, Eigen::Vector3d::Zero()).first->second[Axis] +=
+        values.at(wheel_field(k)) * values.at("force_n");
+}
+constexpr auto pull_at_wheels = &force_at_wheels<0>;
+
+// Moments about joints of the suspension put weight from some wheels on others and leave force and moment of
+// the whole as they are: of three wheels of a side the middle one against the outer ones, of four wheels one
+// diagonal against the other.
+std::vector<sim::EffectVariant> shifts_within_suspension(const DriveCampaign& campaign) {
+  const sim::RoverModel& rover = *campaign.rover;
+  const Free force = outside_number("force_n", kWheelForceShare * weight_n(campaign));
+  std::vector<sim::EffectVariant> all;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<std::size_t> wheels = wheels_of_side(rover, side);
+    std::sort(wheels.begin(), wheels.end(), [&](std::size_t a, std::size_t b) {
+      return rover.wheels[a].position_m.x() > rover.wheels[b].position_m.x();
+    });
+    if (wheels.size() != 3) continue;
+    const auto x = [&](std::size_t i) { return rover.wheels[wheels[i]].position_m.x(); };
+    if (!(x(0) > x(1) && x(1) > x(2))) continue;
+    const double front = (x(1) - x(2)) / (x(0) - x(2));
+    all.push_back(outside_variant({force}, side > 0.0 ? "left side" : "right side",
+                                  {{wheel_field(wheels[0]), front},
+                                   {wheel_field(wheels[1]), -1.0},
+                                   {wheel_field(wheels[2]), 1.0 - front}}));
+  }
+  if (!all.empty() || rover.wheels.size() != 4) return all;
+  std::vector<std::pair<std::string, double>> diagonals;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d& at = rover.wheels[k].position_m;
+    diagonals.emplace_back(wheel_field(k), (at.x() > 0.0) == (at.y() > 0.0) ? 1.0 : -1.0);
+  }
+  return {outside_variant({force}, "diagonals", std::move(diagonals))};
+}
+
+std::vector<sim::EffectVariant> tilting(const DriveCampaign& campaign) {
+  const double std = kForceShare * weight_n(campaign) * 0.5 * campaign.rover->track_m();
+  return {outside_variant({outside_number("roll_nm", std), outside_number("pitch_nm", std)})};
+}
+
+std::string suspension_words(const Values& v, const DriveCampaign& campaign) {
+  std::vector<std::size_t> more, less;
+  for (const std::size_t k : wheels_in(v))
+    (v.at(wheel_field(k)) * v.at("force_n") < 0.0 ? more : less).push_back(k);
+  return fmt::format("a moment inside the suspension puts {:.3g} N more on {} and as much less on {}",
+                     std::abs(v.at("force_n")), names_of_wheels(*campaign.rover, more),
+                     names_of_wheels(*campaign.rover, less));
+}
+
+std::string tilting_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format(
+      "a steady moment on the body, {:.3g} N m about its length and {:.3g} N m about its width",
+      v.at("roll_nm"), v.at("pitch_nm"));
+}
+
+std::string axle_side_words(const Values& v, const DriveCampaign& campaign) {
+  return fmt::format("a steady push of {:.3g} N to the {}, at each of the axles of {}",
+                     std::abs(v.at("force_n")), v.at("force_n") < 0.0 ? "right" : "left",
+                     names_of_wheels(*campaign.rover, wheels_in(v)));
 }
 
 std::string along_words(double force_n) {
@@ -218,7 +280,7 @@ constexpr std::array kForceRows{
                  .depends = "constant",
                  .unit = "N m",
                  .variants = &turning,
-                 .act = [](const Values& v, ModelState& s) { s.outside.turning_nm += v.at("moment_nm"); },
+                 .act = [](const Values& v, ModelState& s) { s.outside.moment_nm.z() += v.at("moment_nm"); },
                  .words = &turning_words},
     OutsideCause{.name = "pull_at_axle",
                  .form = "force_at_axle",
@@ -236,6 +298,35 @@ constexpr std::array kForceRows{
                  .variants = &wheel_forces,
                  .act = &pull_at_wheels,
                  .words = &wheel_words},
+    OutsideCause{.name = "push_at_axle",
+                 .form = "force_at_axle",
+                 .entry = "lateral_force",
+                 .depends = "constant",
+                 .unit = "N",
+                 .variants = &axle_forces,
+                 .act = &force_at_wheels<1>,
+                 .words = &axle_side_words},
+    OutsideCause{.name = "tilting_moment",
+                 .form = "moment_on_body",
+                 .entry = "wheel_load",
+                 .depends = "constant",
+                 .unit = "N m",
+                 .variants = &tilting,
+                 .act =
+                     [](const Values& v, ModelState& s) {
+                       s.outside.moment_nm += Eigen::Vector3d(v.at("roll_nm"), v.at("pitch_nm"), 0.0);
+                     },
+                 .words = &tilting_words,
+                 .has_shape = false,
+                 .twin_of_an_effect = true},
+    OutsideCause{.name = "moment_inside_suspension",
+                 .form = "force_at_wheel",
+                 .entry = "wheel_load",
+                 .depends = "constant",
+                 .unit = "N",
+                 .variants = &shifts_within_suspension,
+                 .act = &force_at_wheels<2>,
+                 .words = &suspension_words},
 };
 
 }  // namespace

@@ -24,6 +24,18 @@ std::vector<sim::EffectVariant> drifts(const DriveCampaign& campaign) {
   return {outside_variant(std::move(free))};
 }
 
+// Over several terrains nobody can say where one lies beside the other.
+template <const auto& Fields, bool OverMap>
+std::vector<sim::EffectVariant> changes(const DriveCampaign& campaign) {
+  if (OverMap && campaign.terrains.size() > 1) return {};
+  std::vector<sim::EffectVariant::Free> free;
+  for (const char* field : Fields)
+    free.push_back({.field = field, .std = kStrengthShare, .lowest = -0.45, .highest = 0.45});
+  return {outside_variant(std::move(free))};
+}
+constexpr std::array kEnd{"end_share"};
+constexpr std::array kOver{"x_share", "y_share"};
+
 void drift(const Values& values, ModelState& state) {
   state.soil_drift.last += values.at("last_share");
   state.soil_drift.middle += values.at("middle_share");
@@ -41,15 +53,49 @@ std::string drift_words(const Values& v, const DriveCampaign& /*campaign*/) {
       percent(middle), percent(last));
 }
 
-constexpr std::array kSoilRows{OutsideCause{.name = "soil_drift",
-                                            .form = "smooth_function",
-                                            .entry = "soil_strength",
-                                            .depends = "order",
-                                            .unit = "1",
-                                            .variants = &drifts,
-                                            .act = &drift,
-                                            .words = &drift_words,
-                                            .has_shape = false}};
+std::string along_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format("the soils' strength changes along each drive: {} at its end than at its start",
+                     percent(2.0 * v.at("end_share")));
+}
+
+std::string over_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format(
+      "the soils' strength changes over the map: {} at the greatest x than at the least, {} at the greatest "
+      "y "
+      "than at the least",
+      percent(2.0 * v.at("x_share")), percent(2.0 * v.at("y_share")));
+}
+
+constexpr std::array kSoilRows{
+    OutsideCause{.name = "soil_along_drive",
+                 .form = "smooth_function",
+                 .entry = "soil_strength",
+                 .depends = "along",
+                 .unit = "1",
+                 .variants = &changes<kEnd, false>,
+                 .act = [](const Values& v, ModelState& s) { s.soil_drift.end += v.at("end_share"); },
+                 .words = &along_words,
+                 .has_shape = false},
+    OutsideCause{
+        .name = "soil_over_map",
+        .form = "smooth_function",
+        .entry = "soil_strength",
+        .depends = "place",
+        .unit = "1",
+        .variants = &changes<kOver, true>,
+        .act = [](const Values& v,
+                  ModelState& s) { s.soil_drift.over += Eigen::Vector2d(v.at("x_share"), v.at("y_share")); },
+        .words = &over_words,
+        .has_shape = false},
+    OutsideCause{.name = "soil_drift",
+                 .form = "smooth_function",
+                 .entry = "soil_strength",
+                 .depends = "order",
+                 .unit = "1",
+                 .variants = &drifts,
+                 .act = &drift,
+                 .words = &drift_words,
+                 .has_shape = false}};
 
 }  // namespace
 

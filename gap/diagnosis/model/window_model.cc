@@ -100,6 +100,13 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
     at.turning = command.turn_in_place;
     stances_[w] = std::move(places);
   }
+  constexpr double kLeastExtent_m = 0.1;
+  Eigen::AlignedBox2d extent;
+  for (const std::vector<Place>& places : stances_)
+    for (const Place& place : places) extent.extend(Eigen::Vector2d(place.stance.p_MB.head<2>()));
+  if (extent.isEmpty()) return;
+  middle_m_ = extent.center();
+  half_extent_m_ = (0.5 * extent.sizes()).cwiseMax(kLeastExtent_m);
 }
 
 double WindowModel::attitude_scatter_rad(std::span<const double> predicted) const {
@@ -182,11 +189,22 @@ std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& ro
   return {mean};
 }
 
+SoilPlace WindowModel::soil_place(std::size_t w, const Place& place) const {
+  const auto from_middle = [](double value, double lowest, double highest) {
+    return highest > lowest ? 2.0 * (value - lowest) / (highest - lowest) - 1.0 : 0.0;
+  };
+  const DriveWindow& window = windows_[w];
+  const std::vector<DriveSample>& rows = campaign_.drives[window.drive].samples;
+  const double last = static_cast<double>(campaign_.drives.size()) - 1.0;
+  return {last > 0.0 ? from_middle(static_cast<double>(window.drive), 0.0, last) : -1.0,
+          from_middle(window.mid_s(), rows.front().time_s, rows.back().time_s),
+          (place.stance.p_MB.head<2>() - middle_m_).cwiseQuotient(half_extent_m_)};
+}
+
 sim::PerWheel<sim::Soil> WindowModel::soils_at(std::size_t w, const Place& place,
                                                const ModelState& state) const {
   const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
-  const double strength =
-      state.soil_drift.any() ? state.soil_drift.factor(windows_[w].drive, campaign_.drives.size()) : 1.0;
+  const double strength = state.soil_drift.any() ? state.soil_drift.factor(soil_place(w, place)) : 1.0;
   sim::PerWheel<sim::Soil> soils(place.soil.size());
   for (std::size_t k = 0; k < soils.size(); ++k) {
     soils[k] = state.soils[place.soil[k]];

@@ -121,6 +121,7 @@ class WindowModel {
     std::span<const sim::BalanceGeometry> geometries = {};
   };
   // Of a window's drive, at one of its stations.
+  SoilPlace soil_place(std::size_t window, const Place& place) const;
   sim::PerWheel<sim::Soil> soils_at(std::size_t window, const Place& place, const ModelState& state) const;
   std::vector<StationStart> starts_of(std::size_t window, const ModelState& state,
                                       std::span<const Place> places) const;
@@ -147,6 +148,8 @@ class WindowModel {
   std::vector<std::vector<Place>> stances_;
   std::vector<std::vector<StationStart>> starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
+  // For SoilPlace: middle and half the extent of all used windows' stations, each way.
+  Eigen::Vector2d middle_m_ = {0, 0}, half_extent_m_ = {1, 1};
   std::vector<std::size_t> offsets_;
   std::optional<LearntDifference> learnt_;
   const Progress* progress_ = nullptr;

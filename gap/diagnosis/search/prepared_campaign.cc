@@ -5,8 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include "gap/diagnosis/model/difference_columns.h"
 #include "gap/diagnosis/model/reference_belief.h"
@@ -112,6 +113,33 @@ NoiseOptions noise_options_of(const DriveCampaign& campaign, const DiagnosisOpti
 }
 
 }  // namespace
+
+std::string first_look_words(const PreparedCampaign& prepared, const sim::RoverModel& rover) {
+  struct Sum {
+    double squares = 0.0;
+    int count = 0;
+    double rms() const { return std::sqrt(squares / count); }
+  };
+  std::map<std::pair<Channel, int>, Sum> sums;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w)
+    for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
+      const Observation& o = prepared.windows[w].observations[i];
+      const auto row = static_cast<Eigen::Index>(prepared.model->offset(w) + i);
+      const double deviations = prepared.nominal_residuals[row] / prepared.noise->deviation()[row];
+      if (row_of(o.channel).of_the_stance || !std::isfinite(deviations)) continue;
+      Sum& sum = sums[{o.channel, o.wheel}];
+      sum.squares += deviations * deviations;
+      ++sum.count;
+    }
+  if (sums.empty()) return "no reading of use";
+  const auto most = std::max_element(
+      sums.begin(), sums.end(), [](const auto& a, const auto& b) { return a.second.rms() < b.second.rms(); });
+  const auto [channel, wheel] = most->first;
+  const std::string of =
+      wheel < 0 ? "" : fmt::format(" of {}", rover.wheels[static_cast<std::size_t>(wheel)].name);
+  return fmt::format("before any re-tuning, {}{} is {:.1f} times its usual scatter off what was predicted",
+                     name_of(channel), of, most->second.rms());
+}
 
 std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
                                              std::span<const DriveWindow> windows,
@@ -219,6 +247,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisO
   if (!believed) return fail(believed.error());
   PreparedCampaign made = std::move(*believed);
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+  progress.report(first_look_words(made, *campaign.rover), 0.04);
   const Hypothesis hypothesis(campaign, {});
   made.null = fit_explanation(hypothesis, *made.model, *made.noise, hypothesis.neutral(), options.fit,
                               options.search.threads);

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/progress.h"
@@ -53,6 +54,10 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
 // PreparationOptions::max_observations, with how to thin the drives.
 Result<PreparedCampaign> prepare_as_believed(const DriveCampaign& campaign, const DiagnosisOptions& options,
                                              Progress& progress, const std::vector<bool>& looked_at = {});
+
+// What a first look says, before anything was fitted: which channel is furthest off what was predicted, in
+// what it usually scatters by.
+std::string first_look_words(const PreparedCampaign& prepared, const sim::RoverModel& rover);
 
 // Campaign and progress must outlive what is made of them. Channels that are not `looked_at` (empty: all are)
 // are not used. Errors: payload_too_large as above; cancelled.

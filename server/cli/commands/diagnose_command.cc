@@ -25,7 +25,6 @@
 #include "core/largest_exact_whole.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/drive_watch.h"
-#include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/commands/watch_command.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"

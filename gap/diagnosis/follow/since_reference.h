@@ -2,7 +2,6 @@
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "gap/diagnosis/search/reference_learning.h"
 
@@ -21,9 +20,5 @@ Result<DriveCampaign> since_reference(const DriveCampaign& reference, const Driv
 // The same of what was learnt before. Errors: invalid_request.
 Result<DriveCampaign> since_reference(const LearntReference& learnt, const DriveCampaign& campaign,
                                       const DiagnosisOptions& options);
-
-// What has changed since. Errors: of both.
-Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
-                                 const DiagnosisOptions& options, Progress& progress);
 
 }  // namespace slipway::gap

@@ -1,4 +1,4 @@
-#include "gap/diagnosis/reference_diagnosis.h"
+#include "gap/diagnosis/follow/since_reference.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -123,13 +123,6 @@ Result<DriveCampaign> since_reference(const DriveCampaign& reference, const Driv
   const auto learnt = learn_reference(reference, options, progress);
   if (!learnt) return fail(learnt.error());
   return since_reference(*learnt, campaign, options);
-}
-
-Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
-                                 const DiagnosisOptions& options, Progress& progress) {
-  const auto since = since_reference(reference, campaign, options, progress);
-  if (!since) return fail(since.error());
-  return diagnose(*since, options, progress);
 }
 
 }  // namespace slipway::gap
