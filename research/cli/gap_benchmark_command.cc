@@ -188,7 +188,7 @@ Result<Timed> decided_again(const GapBenchmarkCommand& options, const std::strin
   diagnosis.verdict = decision.verdict;
   diagnosis.partial = decision.partial;
   diagnosis.marginals = gap::effect_marginals(*record);
-  for (const std::string& effect : decision.names) diagnosis.effects.push_back({.name = effect});
+  for (const std::string& effect : decision.names) diagnosis.effects.emplace_back().name = effect;
   for (const gap::SearchRecord::Explanation& e : record->explanations) {
     gap::ComparedSet& set = diagnosis.candidates.emplace_back();
     set.effects = e.effects;

@@ -34,7 +34,7 @@ void write_fit(Writer& w, const gap::SearchRecord::Fit& fit) {
   w.end_array().end_object();
 }
 
-constexpr CountRule kAny{.lowest = 0, .highest = 100'000};
+constexpr CountRule kAny{0, 100'000};
 constexpr NumberRule kNumber{.unit = "1"};
 constexpr std::int64_t kMost = 1'000'000;
 

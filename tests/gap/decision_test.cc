@@ -29,7 +29,7 @@ SearchRecord record_of(const std::vector<std::pair<Explanation, double>>& explan
     record.explanations.back().log_prior = std::log(probability);
     for (const std::string& effect : explanation.effects) causes[effect] = 0.5;
   }
-  for (const auto& [name, share] : causes) record.causes.push_back({name, share, share});
+  for (const auto& [name, share] : causes) record.causes.push_back({name, share});
   weigh(record, 1.0);
   return record;
 }
@@ -190,6 +190,13 @@ TEST(Decision, OfNothingMissingTellsParametersAndWhatCouldNotBeSeen) {
   EXPECT_EQ(decided(record).verdict, Verdict::kNoGap);
   record.hidden_share = 0.6;
   EXPECT_EQ(decided(record).verdict, Verdict::kNotDetected);
+}
+
+TEST(Decision, SaysNothingIsMissingOnlyWhereTheDrivesDoNotSayThatTheyChanged) {
+  SearchRecord record = record_of({{of({}), 0.9}, {of({}, true), 0.1}});
+  record.drives_changed = true;
+  EXPECT_EQ(decided(record).verdict, Verdict::kUnknown);
+  EXPECT_TRUE(decided(record).names.empty());
 }
 
 // Another wheel law looks like several effects of the ground: they are one class there, and what is of the

@@ -121,14 +121,13 @@ TEST(OutsideCauses, AMomentInsideTheSuspensionIsNoneOnTheRover) {
     x.back() = 7.0;
     const OutsideForces forces = hypothesis.state(x).outside;
     ASSERT_GE(forces.at_wheel_n.size(), 3U);
-    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = forces.moment_nm;
     for (const auto& [wheel, at] : forces.at_wheel_n) {
       force += at;
       moment += campaign.rover->wheels[wheel].position_m.cross(at);
     }
     EXPECT_NEAR(force.norm(), 0.0, 1e-12);
-    EXPECT_NEAR(moment.y(), 0.0, 1e-12);
-    EXPECT_NEAR(moment.x(), 0.0, 1e-12);
+    EXPECT_NEAR(moment.norm(), 0.0, 1e-12);
   }
 }
 

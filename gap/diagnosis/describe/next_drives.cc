@@ -27,7 +27,8 @@ std::vector<ExpectedReading> outcome(const DriveCampaign& campaign, const ModelS
   sim::QuasiStaticSolver solver(state.rover, campaign.gravity_m_s2);
   if (state.outside.any()) solver.set_outside(wrench_of(state.outside, state.rover, stance, command));
   sim::Soil soil = state.soils.front();
-  if (state.soil_drift.any()) strengthen(soil, state.soil_drift.factor(1, 2));  // as the last drive met it
+  // As the last drive met it.
+  if (state.soil_drift.any()) strengthen(soil, state.soil_drift.factor({.order = 1.0}));
   const sim::StationState at = solver.solve(stance, soil, command);
   const double speed = std::abs(drive.speed_m_s);
   const bool moves = at.moving();

@@ -39,9 +39,9 @@ struct OutsideForces {
 
 // Where on a campaign's ground, and when: what the strength of all soils may go with.
 struct SoilPlace {
-  double order = 0.0;               // of the drive: -1 of the first, and of the only one, to 1 of the last
-  double along = 0.0;               // along the drive, in time: -1 at its start to 1 at its end
-  Eigen::Vector2d on_map = {0, 0};  // -1 to 1 over the extent of all drives, each way
+  double order = 0.0;  // of the drive: -1 of the first, and of the only one, to 1 of the last
+  double along = 0.0;  // along the drive, in time: -1 at its start to 1 at its end
+  Eigen::Vector2d on_map = {0.0, 0.0};  // -1 to 1 over the extent of all drives, each way
 };
 
 // How the strength of all soils changes: from drive to drive, as by the sun or by moisture, along each drive,

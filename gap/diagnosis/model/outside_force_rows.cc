@@ -95,7 +95,6 @@ void force_at_wheels(const Values& values, ModelState& state) {
     state.outside.at_wheel_n.try_emplace(k, Eigen::Vector3d::Zero()).first->second[Axis] +=
         values.at(wheel_field(k)) * values.at("force_n");
 }
-constexpr auto pull_at_wheels = &force_at_wheels<0>;
 
 // Moments about joints of the suspension put weight from some wheels on others and leave force and moment of
 // the whole as they are: of three wheels of a side the middle one against the outer ones, of four wheels one
@@ -125,6 +124,14 @@ std::vector<sim::EffectVariant> shifts_within_suspension(const DriveCampaign& ca
     diagonals.emplace_back(wheel_field(k), (at.x() > 0.0) == (at.y() > 0.0) ? 1.0 : -1.0);
   }
   return {outside_variant({force}, "diagonals", std::move(diagonals))};
+}
+
+void shift_within_suspension(const Values& values, ModelState& state) {
+  force_at_wheels<2>(values, state);
+  // Wheels of a side need not stand in one line.
+  for (const std::size_t k : wheels_in(values))
+    state.outside.moment_nm -= state.rover.wheels[k].position_m.cross(Eigen::Vector3d::UnitZ()) *
+                               (values.at(wheel_field(k)) * values.at("force_n"));
 }
 
 std::vector<sim::EffectVariant> tilting(const DriveCampaign& campaign) {
@@ -288,7 +295,7 @@ constexpr std::array kForceRows{
                  .depends = "direction",
                  .unit = "N",
                  .variants = &axle_forces,
-                 .act = &pull_at_wheels,
+                 .act = &force_at_wheels<0>,
                  .words = &wheel_words},
     OutsideCause{.name = "pull_at_wheel",
                  .form = "force_at_wheel",
@@ -296,7 +303,7 @@ constexpr std::array kForceRows{
                  .depends = "direction",
                  .unit = "N",
                  .variants = &wheel_forces,
-                 .act = &pull_at_wheels,
+                 .act = &force_at_wheels<0>,
                  .words = &wheel_words},
     OutsideCause{.name = "push_at_axle",
                  .form = "force_at_axle",
@@ -325,7 +332,7 @@ constexpr std::array kForceRows{
                  .depends = "constant",
                  .unit = "N",
                  .variants = &shifts_within_suspension,
-                 .act = &force_at_wheels<2>,
+                 .act = &shift_within_suspension,
                  .words = &suspension_words},
 };
 

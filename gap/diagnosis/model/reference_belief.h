@@ -2,15 +2,27 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/pose.h"
 #include "gap/diagnosis/model/channel.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/model/smooth_difference.h"
+#include "sim/rover/drive_command.h"
 
 namespace slipway::gap {
+
+// A window of a reference, and what is left over there: by channel and wheel (-1: of the rover).
+struct SeenWindow {
+  std::string terrain;
+  Pose2 middle;
+  sim::DriveCommand command;
+  std::map<std::pair<Channel, int>, double> left_over;
+};
 
 // What reference drives told, for a campaign that asks what has changed since: a normal belief of its
 // nuisances, of what the model leaves over beside them, and of the drives' scatter. Of the difference's
@@ -31,6 +43,7 @@ struct ReferenceBelief {
   Eigen::MatrixXd slope;  // coefficients x nuisances
   Eigen::MatrixXd root;   // coefficients x causes
   NoiseScales noise;
+  std::vector<SeenWindow> seen;
   Footing footing = Footing::kSuspension;  // that the reference's attitudes have shown
 };
 

@@ -12,6 +12,7 @@
 #include "gap/diagnosis/model/difference_columns.h"
 #include "gap/diagnosis/model/reference_belief.h"
 #include "gap/diagnosis/model/smooth_difference.h"
+#include "gap/diagnosis/search/like_drives.h"
 
 namespace slipway::gap {
 namespace {
@@ -69,6 +70,9 @@ LearntDifference difference_of(const ReferenceBelief& belief, const Hypothesis& 
   Eigen::MatrixXd open(columns.rows(), learnt_open.cols() + beyond_open.cols());
   open << learnt_open, beyond_open;
   LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, neutral, open};
+  Eigen::VectorXd left = measured(model) - learnt.offset;
+  for (Eigen::Index i = 0; i < left.size(); ++i) left[i] -= expected[static_cast<std::size_t>(i)];
+  learnt.offset += repeated_part(belief.seen, model, left);
   for (Eigen::Index p = 0; p < learnt.slope.cols(); ++p)
     learnt.slope.col(p) /= hypothesis.parameters()[static_cast<std::size_t>(p)].std;
   return learnt;

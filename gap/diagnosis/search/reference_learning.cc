@@ -10,6 +10,7 @@
 
 #include "gap/diagnosis/model/difference_columns.h"
 #include "gap/diagnosis/model/reading_plausibility.h"
+#include "gap/diagnosis/search/like_drives.h"
 
 namespace slipway::gap {
 namespace {
@@ -134,6 +135,15 @@ class Learner {
     believe(columns);
   }
 
+  // Measured less what parameters and difference say.
+  Eigen::VectorXd left_over() const {
+    const WindowModel& model = *learnt_.prepared.model;
+    const std::vector<double> said =
+        learnt_.prepared.null->hypothesis.predict(model, x_, options_.search.threads);
+    return measured(model) -
+           Eigen::Map<const Eigen::VectorXd>(said.data(), static_cast<Eigen::Index>(said.size()));
+  }
+
   // The fit with the difference that was learnt beside it.
   void refit() {
     PreparedCampaign& prepared = learnt_.prepared;
@@ -226,6 +236,7 @@ Result<LearntReference> learn_reference(const DriveCampaign& reference, const Di
     learner.round();
   }
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+  learnt.left_over = learner.left_over();
   return learnt;
 }
 
@@ -279,6 +290,7 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
       learnt.covariance.bottomRightCorner(coefficients, coefficients) - belief->slope * crossed.transpose();
   belief->root = root_of(left);
   belief->noise = learnt.prepared.noise->scales();
+  belief->seen = seen_windows(*learnt.prepared.model, learnt.left_over);
   belief->footing = learnt.prepared.model->footing();
   return belief;
 }

@@ -23,6 +23,7 @@ struct LearntReference {
   Eigen::VectorXd mean;            // x
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of (u, b)
+  Eigen::VectorXd left_over;   // of every observation: what neither parameters nor difference explain
   SmoothScale scale;
   SmoothRange range;
 };
