@@ -219,6 +219,7 @@ class Diagnoser {
     d_.partial = decision.partial;
     d_.model_adequate = decision.adequate;
     d_.conflict_probability = decision.adequacy.conflict_p;
+    d_.held_out_probability = decision.adequacy.held_out_p;
     d_.marginals = effect_marginals(d_.search);
     for (EffectMarginal& m : d_.marginals) m.calibrated = decision.calibrated.at(m.name);
     d_.candidates = compared_sets();

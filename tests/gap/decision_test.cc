@@ -100,6 +100,17 @@ TEST(Adequacy, CountsNeitherLessScatterNorWhatMayLieAtAnEndNorWhatAReferenceTaug
   EXPECT_EQ(adequacy_of(record, 0).conflict_p, 1.0);
 }
 
+// The 0.999 quantile of chi-square with ten degrees of freedom is 29.588.
+TEST(Adequacy, AsksHowDrivesThatWereHeldOutAreTold) {
+  SearchRecord record;
+  record.windows = 10;
+  record.with_reference = true;
+  record.fits = {{.held_out_rms = std::sqrt(2.9588), .shifts = {}}, {.held_out_rms = 1.0, .shifts = {}}};
+  EXPECT_NEAR(adequacy_of(record, 0).held_out_p, 1e-3, 1e-6);
+  EXPECT_EQ(adequacy_of(record, 0).p(), adequacy_of(record, 0).held_out_p);
+  EXPECT_GT(adequacy_of(record, 1).held_out_p, 0.4);
+}
+
 TEST(Calibration, GrowsWithProbabilityAndShareAndStaysWithinItsEnds) {
   for (const bool with_reference : {false, true}) {
     const Calibration& q = calibration(with_reference);

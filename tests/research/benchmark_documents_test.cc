@@ -4,6 +4,7 @@
 #include "api/json/parse.h"
 #include "research/documents/benchmark_document.h"
 #include "research/documents/benchmark_report.h"
+#include "research/documents/search_record_document.h"
 #include "research/sealed_set/benchmark_answers.h"
 
 namespace slipway::api {
@@ -29,6 +30,37 @@ TEST(BenchmarkAnswers, NamesEveryFault) {
   ASSERT_FALSE(answers);
   EXPECT_EQ(answers.error().faults.size(), 3u);
   EXPECT_FALSE(json::read_benchmark_answers("[]"));
+}
+
+// A decision that is made again from what was written is the one that was made.
+TEST(SearchRecordDocument, IsReadAsItWasWritten) {
+  gap::Diagnosis diagnosis;
+  gap::SearchRecord& record = diagnosis.search;
+  record.with_reference = record.drives_changed = true;
+  record.drives = 5;
+  record.windows = 40;
+  record.explanations = {{.effects = {"hardpan"},
+                          .outside = {"load"},
+                          .with_unknown = true,
+                          .fit = 1,
+                          .log_evidence = 12.5,
+                          .log_prior = -3.25,
+                          .other_variants = {{-1.5, -4.0}, {}}},
+                         {.effects = {}, .outside = {}, .log_prior = -1.0, .other_variants = {}}};
+  record.fits = {{.held_out_rms = 2.5, .shifts = {{"c1", 1.5, true}, {"n", -0.5, false}}},
+                 {.held_out_rms = 1.25, .shifts = {}}};
+  record.causes = {{"hardpan", 0.75}, {"load", 0.125}};
+  record.scatter_deviations = {0.5, -1.0};
+  record.parameters_gain = 4.5;
+  record.hidden_share = 0.25;
+  const std::string written = json::search_record_document(diagnosis);
+  const auto read = json::read_search_record(written, "s01.json");
+  ASSERT_TRUE(read) << read.error().detail;
+  gap::Diagnosis again;
+  again.search = *read;
+  EXPECT_EQ(json::search_record_document(again), written);
+  EXPECT_EQ(read->explanations[0].other_variants, record.explanations[0].other_variants);
+  EXPECT_FALSE(json::read_search_record("{}", "s01.json"));
 }
 
 TEST(BenchmarkDocument, IsOneDocumentWithFiguresForEachFidelity) {

@@ -327,6 +327,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   w.text("verdict", gap::name_of(d.verdict)).text("reason", d.reason);
   w.text("overturned_by", d.overturned_by).boolean("model_adequate", d.model_adequate);
   w.significant("conflict_probability", d.conflict_probability);
+  w.significant("held_out_probability", d.held_out_probability);
   write_effects_found(w, d);
   write_marginals(w, d);
   write_reference(w, d);

@@ -8,6 +8,11 @@ namespace slipway::gap {
 
 Adequacy adequacy_of(const SearchRecord& record, std::size_t fit) {
   Adequacy adequacy;
+  const auto windows = static_cast<double>(record.windows);
+  adequacy.held_out_rms = record.fits[fit].held_out_rms;
+  if (record.windows > 0)
+    adequacy.held_out_p =
+        boost::math::gamma_q(0.5 * windows, 0.5 * windows * adequacy.held_out_rms * adequacy.held_out_rms);
   // What a reference taught is believed as it is: its own drives told of the scatter and of the parameters.
   if (record.with_reference) return adequacy;
   double square = 0.0;
@@ -25,7 +30,9 @@ Adequacy adequacy_of(const SearchRecord& record, std::size_t fit) {
     const double deviations = std::max(0.0, above);
     square += deviations * deviations;
     ++terms;
-    if (deviations > std::abs(adequacy.deviations)) adequacy = {1.0, "", deviations};
+    if (deviations <= std::abs(adequacy.deviations)) continue;
+    adequacy.deviations = deviations;
+    adequacy.furthest.clear();
   }
   if (terms > 0) adequacy.conflict_p = boost::math::gamma_q(0.5 * terms, 0.5 * square);
   return adequacy;

@@ -3,8 +3,9 @@
 namespace slipway::gap {
 
 // The probability that an effect is at work, of what the search says of it: a logistic in the logit of its
-// marginal probability and the logarithm of the share of the held-out gap that it closes. Fitted on answers
-// to sealed campaigns whose hidden effects are known (docs/method/estimator.md names the sets). 0 of an
+// marginal probability and the logarithm of the share of the held-out gap that it closes. The most
+// likely one on answers to sealed campaigns whose hidden effects are known
+// (data/validation/sealed_levels_marginals.csv, with their seeds). 0 of an
 // effect that closes nothing: it tells no held-out drive better.
 struct Calibration {
   double constant, by_log_odds, by_log_share;

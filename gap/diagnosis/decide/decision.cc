@@ -83,7 +83,7 @@ Decision decide(const SearchRecord& record, double evidence_share, const Decisio
   Decision decision;
   decision.marginals = marginals_of(record);
   decision.adequacy = adequacy_of(record, record.explanations.front().fit);
-  decision.adequate = decision.adequacy.conflict_p >= options.conflict;
+  decision.adequate = decision.adequacy.p() >= options.conflict;
   for (const SearchRecord::Cause& cause : record.causes)
     decision.calibrated[cause.name] =
         calibration(record.with_reference)(decision.marginals.of_cause[cause.name], cause.share);

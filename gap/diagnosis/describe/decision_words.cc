@@ -23,6 +23,11 @@ std::string closing_words(std::span<const EffectMarginal> marginals, std::span<c
 }
 
 std::string conflict_words(const Adequacy& adequacy) {
+  if (adequacy.held_out_p < adequacy.conflict_p)
+    return fmt::format(
+        "the model is not adequate: drives held out of the best explanation are told {:.2f} times worse than "
+        "their noise (probability {:.1g} by chance)",
+        adequacy.held_out_rms, adequacy.held_out_p);
   return fmt::format(
       "the wheel model is not adequate: {} would lie {:.1f} deviations from what was believed (a conflict of "
       "probability {:.1g})",

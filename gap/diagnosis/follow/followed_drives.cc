@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/parallel_for.h"
+#include "gap/diagnosis/follow/since_reference.h"
 #include "gap/diagnosis/model/drive_resampling.h"
 #include "gap/diagnosis/search/explanation_search.h"
-#include "gap/diagnosis/follow/since_reference.h"
 
 namespace slipway::gap {
 namespace {
@@ -151,8 +151,8 @@ Result<FollowedDrives> follow_since_first(const DriveCampaign& campaign, std::si
                                           const ChangeOptions& change, const DiagnosisOptions& options,
                                           Progress& progress) {
   const DriveCampaign healthy = drives_between(campaign, 0, first);
-  const auto since = since_reference(healthy, drives_between(campaign, first, campaign.drives.size()),
-                                     options, progress);
+  const auto since =
+      since_reference(healthy, drives_between(campaign, first, campaign.drives.size()), options, progress);
   if (!since) return fail(since.error());
   return follow_drives(*since, change, options, progress);
 }

@@ -243,7 +243,7 @@ struct Diagnosis {
   std::vector<std::string> library;  // effects that were looked for
   Verdict verdict = Verdict::kInsufficient;
   bool model_adequate = true;  // what was believed of soils, laws and scatter stands: see adequacy.h
-  double conflict_probability = 1.0;
+  double conflict_probability = 1.0, held_out_probability = 1.0;
   bool partial = false;       // effects are named, and something unexplained remains beside them
   std::string reason;         // one sentence
   std::string overturned_by;  // what would

@@ -102,9 +102,8 @@ struct SearchOptions {
   // A fit that would stay this much log evidence behind the best one is given up.
   double max_behind = 50.0;
   // Log evidence behind the best, from which a fit is not started again at what was believed of the soils,
-  // and no better place of an effect is looked for beside its own scatter: 3 % of it are believed at least
-  // (1.2 % with a reference).
-  double out_of_reach = 500.0;
+  // and no better place of an effect is looked for beside its own scatter: 12 % of it are believed at least.
+  double out_of_reach = 100.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's. At 0.4 a wheel that drags at half its usual size
   // lost its name.
@@ -159,7 +158,8 @@ struct DecisionOptions {
   double missed_name = 1.0;   // the cause stays to be found
   double false_alarm = 1.0;   // something is said to be missing from a model that is right
   double missed_alarm = 1.0;  // a model that lacks something goes on planning
-  // Probability of a conflict with what was believed, below which the wheel model is not adequate.
+  // Probability of a conflict with what was believed, and of what is left over on drives held out, below
+  // which the wheel model is not adequate.
   double conflict = 1e-4;
 };
 
