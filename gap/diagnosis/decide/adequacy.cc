@@ -4,15 +4,18 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
+#include "gap/diagnosis/search/diagnosis_options.h"
+
 namespace slipway::gap {
 
 Adequacy adequacy_of(const SearchRecord& record, std::size_t fit) {
   Adequacy adequacy;
   const auto windows = static_cast<double>(record.windows);
-  adequacy.held_out_rms = record.fits[fit].held_out_rms;
+  const double rms = adequacy.held_out_rms = record.fits[fit].held_out_rms;
+  const double off =
+      DiscrepancyOptions{}.form_imprecision * std::max(0.0, record.fits.front().held_out_rms - rms);
   if (record.windows > 0)
-    adequacy.held_out_p =
-        boost::math::gamma_q(0.5 * windows, 0.5 * windows * adequacy.held_out_rms * adequacy.held_out_rms);
+    adequacy.held_out_p = boost::math::gamma_q(0.5 * windows, 0.5 * windows * rms * rms / (1.0 + off * off));
   // What a reference taught is believed as it is: its own drives told of the scatter and of the parameters.
   if (record.with_reference) return adequacy;
   double square = 0.0;

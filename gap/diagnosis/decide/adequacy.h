@@ -16,7 +16,9 @@ namespace slipway::gap {
 //
 // And it may leave more over on drives that were held out of it than their noise does. Readings of a window
 // share what it scatters by, so that a window counts as one: of n windows, n times the mean square of the
-// held-out residuals in deviations is chi-square with n degrees of freedom.
+// held-out residuals in deviations, r^2, is chi-square with n degrees of freedom. The equations of its
+// effects may be off by a share of what they close of the gap (DiscrepancyOptions::form_imprecision), so that
+// r^2 / (1 + (share (r of nothing - r))^2) takes its place.
 struct Adequacy {
   double conflict_p = 1.0;    // that beliefs like these give as large a D^2
   std::string furthest;       // the parameter that lies furthest off; empty: it is a scale of the scatter
