@@ -2,6 +2,7 @@
 import OlMap from "ol/Map.js";
 import View from "ol/View.js";
 import type BaseLayer from "ol/layer/Layer.js";
+import Overlay from "ol/Overlay.js";
 import Projection from "ol/proj/Projection.js";
 import { defaults as defaultControls } from "ol/control/defaults.js";
 import TileLayer from "ol/layer/Tile.js";
@@ -11,11 +12,14 @@ import TileGrid from "ol/tilegrid/TileGrid.js";
 import type ImageTile from "ol/ImageTile.js";
 import type RenderEvent from "ol/render/Event.js";
 import { address, ask, token, type TerrainDocument } from "../api/client";
+import { button, fill, h } from "../dom";
 import { stationAt } from "../result";
 import { store, type LayerName, type State } from "../state";
+import { whyAt } from "../why";
 import { bodyOf, type Body } from "./body";
 import { DrawnLayer, putAt } from "./drawn_layer";
 import { GapLayer } from "./gap_layer";
+import { clearOf } from "./margins";
 import { riskLayer, type RiskLayer } from "./risk_layer";
 import type { RiskKind, RiskMap } from "./risk_types";
 import { RoutesLayer } from "./routes_layer";
@@ -36,8 +40,11 @@ export class TerrainMap {
   private legend = "";
   body: Body | null = null;
   pointer: number[] | null = null;
+  private placed = -1; // time stamp of the click that placed something
+  private readonly whyBox = h("div", { class: "why", role: "status", "data-why": true });
+  private readonly why = new Overlay({ element: this.whyBox, autoPan: { margin: 8 }, offset: [0, -14], positioning: "bottom-center", stopEvent: true });
 
-  constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void) {
+  constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void, private readonly controls: () => HTMLElement[]) {
     this.map = new OlMap({
       target,
       controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleBar()]),
@@ -45,7 +52,14 @@ export class TerrainMap {
     });
     this.drawn = new DrawnLayer(this.map);
     this.map.addLayer(this.drawn.layer);
-    this.map.on("singleclick", (event) => this.clicked(event.coordinate, event.pixel));
+    // What a tool places is there at once; what a click looks at may still become a double click, which zooms.
+    this.map.on("click", (event) => {
+      this.placed = this.place(event.coordinate) ? event.originalEvent.timeStamp : -1;
+    });
+    this.map.on("singleclick", (event) => {
+      if (event.originalEvent.timeStamp !== this.placed) this.look(event.coordinate, event.pixel);
+    });
+    this.map.addOverlay(this.why);
     this.map.on("pointermove", (event) => {
       this.pointer = event.coordinate;
       this.told(event.coordinate);
@@ -75,7 +89,13 @@ export class TerrainMap {
       this.showGround(s);
       this.gap.draw(s);
     });
-    store.on(["result", "other", "route", "compared", "routeColour", "palette", "bounds", "job"], (s) => this.routes.draw(s));
+    store.on(["result", "other", "route", "compared", "routeColour", "palette", "bounds", "job", "stale", "rovers"], (s) => this.routes.draw(s));
+    let moved = store.state.options.limits;
+    store.on(["options"], (s) => {
+      if (s.options.limits !== moved && s.routeColour === "limits") this.routes.draw(s);
+      moved = s.options.limits;
+    });
+    store.on(["result", "route", "tab", "stale"], () => this.closeWhy());
     store.on(["hover_m"], (s) => this.routes.point(s));
     store.on(["drawn", "tab", "result"], (s) => this.drawn.draw(s));
     store.on(["tool"], (s) => {
@@ -243,13 +263,16 @@ export class TerrainMap {
     layer.on("postrender", (event: RenderEvent) => (event.context as CanvasRenderingContext2D).restore());
   }
 
-  private clicked(coordinate: number[], pixel: number[]): void {
-    if (this.isTerrain && store.state.tool !== "look" && !this.isOnMap(coordinate)) {
-      this.told(coordinate);
-      return;
-    }
-    if (this.isTerrain && putAt(store.state.tool, coordinate)) return;
+  private place(coordinate: number[]): boolean {
+    if (!this.isTerrain || store.state.tool === "look") return false;
+    if (this.isOnMap(coordinate)) return putAt(store.state.tool, coordinate);
+    this.told(coordinate);
+    return true;
+  }
+
+  private look(coordinate: number[], pixel: number[]): void {
     if (store.state.tool !== "look") return;
+    this.closeWhy();
     const window = this.windowAt(pixel);
     if (window !== undefined) {
       const drive = store.state.followed.diagnosis!.document.where.windows[window]!.drive;
@@ -257,7 +280,26 @@ export class TerrainMap {
       return;
     }
     const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
-    if (route !== undefined) store.set({ route });
+    if (route === undefined) return;
+    store.set({ route });
+    this.hover(coordinate);
+    this.tellWhy();
+  }
+
+  /** Says why the route has its colour where the cursor is. */
+  tellWhy(): void {
+    const { result, route: index, hover_m } = store.state;
+    const route = result?.routes[index];
+    if (!route || hover_m === null) return;
+    const { head, lines } = whyAt(route, hover_m, store.state);
+    const close = button("×", () => this.closeWhy(), { class: "quiet tiny", "aria-label": "Close" });
+    fill(this.whyBox, h("div", { class: "job-head" }, h("strong", {}, head), close), lines.map((line) => h("p", {}, line)));
+    const i = stationAt(route.stations, hover_m);
+    this.why.setPosition([route.stations.x_m[i]!, route.stations.y_m[i]!]);
+  }
+
+  closeWhy(): void {
+    this.why.setPosition(undefined);
   }
 
   isOnMap([x, y]: number[]): boolean {
@@ -286,10 +328,10 @@ export class TerrainMap {
     store.set({ hover_m: nearest < 0 ? null : distance_m[nearest]! });
   }
 
-  /** Room around what is brought into sight; at the right lie the layers. */
+  /** Room around what is brought into sight, beside the controls. */
   private margins(px: number): number[] {
-    const wide = (this.map.getSize()?.[0] ?? 0) > 700;
-    return [px, wide ? px + 310 : px, px, px];
+    const target = this.map.getTargetElement();
+    return clearOf(target.getBoundingClientRect(), this.controls().map((control) => control.getBoundingClientRect()), px);
   }
 
   centre(): number[] | null {

@@ -4,7 +4,8 @@ import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { share, words } from "../format";
+import { share } from "../format";
+import { causeWords } from "../why";
 import { stationAt, tripsOf, type Route } from "../result";
 
 const character_px = 6.6;
@@ -59,7 +60,7 @@ function labelled(route: Route): Map<number, string[]> {
   for (const rule of tripsOf(route)) {
     const own = stationAt(route.stations, rule.from_m!);
     const k = [...at.keys()].find((other) => Math.abs(distance_m[other]! - distance_m[own]!) < near_m) ?? own;
-    at.set(k, [...(at.get(k) ?? []), `${rule.words} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
+    at.set(k, [...(at.get(k) ?? []), `${rule.words} ${share(rule.trips.value)}${rule.cause ? `, ${causeWords(rule.cause)}` : ""}`]);
   }
   return at;
 }
