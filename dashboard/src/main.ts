@@ -39,7 +39,7 @@ const aim = h("div", { class: "map-aim", role: "status" });
 const layerBox = h("div", { class: "layers" });
 const profile = h("div", { class: "profile" });
 const onMap = h("div", { class: "map-verdict", role: "status", "aria-live": "polite" });
-const lean = h("div", { class: "map-lean" });
+const lean = h("div", { class: "map-lean off" });
 const frame = h("div", { class: "map-frame" }, mapElement, h("div", { class: "map-top" }, aim, onMap), lean, readoutLine);
 const stage = h("div", { class: "stage bare" }, h("div", { class: "map-box" }, frame, layerBox), profile);
 let wasEmpty = true;
@@ -63,7 +63,7 @@ document.body.append(
 
 // First, so that all that is drawn knows it.
 store.on(["result", "drawn", "options", "terrain", "rules", "typed"], (state) => store.set({ stale: staleness(state) }));
-const controls = () => [...frame.querySelectorAll<HTMLElement>(".ol-zoom, .scale-bar, .map-top > *, .map-readout"), layerBox];
+const controls = () => [...frame.querySelectorAll<HTMLElement>(".ol-zoom, .scale-bar, .map-top > *, .map-lean, .map-readout"), layerBox];
 const map = new TerrainMap(mapElement, (coordinate) => readout(readoutLine, map, coordinate), controls);
 const charts = new ProfileCharts(profile);
 // Each is made when it is first looked at.

@@ -28,7 +28,7 @@ export function whyAt(route: Route, at_m: number, { bounds, result, options, sta
   const moved = { ...result?.limits, ...options.limits };
   for (const { limit, share: k } of passedAt(route, i, moved)) lines.push(`${limit.words} ${number(moved[limit.key])}${limit.unit && ` ${limit.unit}`}: passed at this place ${shareClasses[k]}.`);
   const slip = s.slip_p50[i] ?? s.slip[i];
-  lines.push(`Slip ${number(slip)} (${number(s.slip_p05[i])} to ${number(s.slip_p95[i])}), tilt ${number(s.tilt_deg[i])}°, ${s.on_unknown_ground[i] ? "on ground that no map names" : `on ${words(s.soil[i] ?? "unknown ground")}`}.`);
+  lines.push(`Slip ${number(slip, 2)} (${number(s.slip_p05[i], 2)} to ${number(s.slip_p95[i], 2)}), tilt ${number(s.tilt_deg[i], 2)}°, ${s.on_unknown_ground[i] ? "on ground that no map names" : `on ${words(s.soil[i] ?? "unknown ground")}`}.`);
   const k = classesOf(route, "risk", bounds.risk)[i];
   const colour = k === null || k === undefined ? "unknown ground, whatever was predicted" : k >= 3 ? "red: much goes wrong here" : k === 2 ? "some goes wrong here" : "little goes wrong here";
   return { head: stretch ? `${stretch.from_m.toFixed(0)} to ${stretch.to_m.toFixed(0)} m: ${colour}` : `At ${at_m.toFixed(0)} m: ${colour}`, lines };

@@ -17,22 +17,21 @@ function view(turn_deg: number, wheels: number[], half: number, title: string): 
 }
 
 export function leanView(target: HTMLElement): void {
-  const draw = ({ result, route, hover_m }: State) => {
-    const chosen = result?.routes[route];
-    target.hidden = !chosen || hover_m === null;
+  const draw = ({ result, route, hover_m, stale }: State) => {
+    const chosen = stale === "all" ? undefined : result?.routes[route];
+    target.classList.toggle("off", !chosen || hover_m === null); // it keeps its place: no mark is to lie under it
     if (!chosen || hover_m === null) return;
     const { stations: s } = chosen;
     const i = stationAt(s, hover_m);
     const pose = poseAt(s, i);
     // Seen from its right side the nose is to the right; seen from behind its right side is.
     fill(target,
-      h("div", { class: "row" }, view(pose.pitch_deg, [-20, 0, 20], 17, "from its side, nose to the right"), view(pose.roll_deg, [-14, 14], 13, "from behind")),
-      h("p", { "data-lean": true }, `${s.distance_m[i]!.toFixed(1)} m: ${leanText(pose)}`),
-      h("p", {}, `slip ${number(s.slip_p50[i] ?? s.slip[i])}, ${s.on_unknown_ground[i] ? "unknown ground" : words(s.soil[i] ?? "unknown ground")}, halts ${share(s.risk[i])}`));
+      h("div", { class: "views" }, view(pose.pitch_deg, [-20, 0, 20], 17, "from its side, nose to the right"), view(pose.roll_deg, [-14, 14], 13, "from behind")),
+      h("p", { "data-lean": true }, `${s.distance_m[i]!.toFixed(1)} m: ${leanText(pose)}`, h("br"), h("span", {}, `slip ${number(s.slip_p50[i] ?? s.slip[i], 2)}, ${s.on_unknown_ground[i] ? "unknown ground" : words(s.soil[i] ?? "unknown ground")}, halts ${share(s.risk[i])}`)));
   };
   let asked = 0;
   // At most once a frame: the pointer moves faster.
-  store.on(["hover_m", "result", "route"], () => {
+  store.on(["hover_m", "result", "route", "stale"], () => {
     cancelAnimationFrame(asked);
     asked = requestAnimationFrame(() => draw(store.state));
   });

@@ -50,7 +50,7 @@ export class RoutesLayer {
   /** Marks the place along the chosen route that the charts' cursor is at. */
   point(state: State): void {
     const route = state.result?.routes[state.route];
-    if (!route || state.hover_m === null) {
+    if (!route || state.hover_m === null || state.stale === "all") {
       this.marker.setGeometry(undefined);
       return;
     }

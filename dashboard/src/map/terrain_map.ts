@@ -355,12 +355,12 @@ export class TerrainMap {
     const last = Math.max(stationAt(route.stations, to_m), first);
     const xs = route.stations.x_m.slice(first, last + 1);
     const ys = route.stations.y_m.slice(first, last + 1);
-    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(40), duration: 200 });
+    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(28), duration: 200 });
   }
 
   showRoutes(): void {
     const extent = this.routes.source.getExtent();
-    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(50) });
+    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(28) });
   }
 }
 

@@ -27,7 +27,7 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   const ofTerrain = h("div", {},
     h("details", { open: isWide }, h("summary", {}, "Layers"), switches, swipe),
     h("details", { "data-risks": true }, h("summary", {}, "Risk of the ground"), risks),
-    h("details", { open: matchMedia("(min-width: 40rem)").matches }, h("summary", {}, "Legend"), riskLegends, legends, routes));
+    h("details", { open: matchMedia("(min-width: 60rem)").matches }, h("summary", {}, "Legend"), riskLegends, legends, routes));
   fill(target, gap, ofTerrain, h("details", {}, h("summary", {}, "Colours and classes"), classes));
   gapControls(gap);
   // A campaign's own ground has no layers.

@@ -44,7 +44,7 @@ export const nearest = ({ value }: Rule): string => `${number(value.p50)} (${num
 export const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
 
 export const figures: [string, (r: Route) => number | null | undefined, (v: number | null | undefined) => string][] = [
-  ["Cost that ranks", (r) => r.figures.cost, (v) => number(v, 4)],
+  ["Cost that ranks, h of driving", (r) => r.figures.cost, (v) => number(v, 4)],
   ["Length", (r) => r.figures.length_m, metres],
   ["Time under way", (r) => r.figures.duration_s, duration],
   ["Energy, Wh", (r) => r.figures.energy_wh, (v) => number(v)],
