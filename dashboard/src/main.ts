@@ -122,9 +122,13 @@ store.on(["result", "tab", "followed"], ({ result, tab, followed }) => {
 });
 let brought = "";
 store.on(["result"], ({ result }) => {
-  // After a drag the page stays where it is.
-  if (!result || result.quiet || result.job === brought) return;
+  if (!result || result.job === brought) return;
   brought = result.job;
+  // After a drag the page stays where it is.
+  if (result.quiet) {
+    map.map.once("postrender", () => map.keepInSight());
+    return;
+  }
   map.showRoutes();
   bringUp(verdict);
 });

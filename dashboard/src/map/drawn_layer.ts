@@ -36,7 +36,7 @@ export class DrawnLayer {
   readonly layer = new VectorLayer({ source: this.source, zIndex: 30 });
   private drawing: Draw | null = null;
   private corners: number[][] = []; // that the keyboard has placed
-  private dragged = false;
+  dragged = false;
   private frame = 0;
   private placed = ""; // start, goal and way points when the drag began
 

@@ -59,6 +59,7 @@ export class TerrainMap {
     this.map.on("singleclick", (event) => {
       if (event.originalEvent.timeStamp !== this.placed) this.look(event.coordinate, event.pixel);
     });
+    this.map.on("dblclick", () => this.placed < 0); // two places that follow fast zoom nothing
     this.map.addOverlay(this.why);
     this.map.on("pointermove", (event) => {
       this.pointer = event.coordinate;
@@ -356,6 +357,18 @@ export class TerrainMap {
     const xs = route.stations.x_m.slice(first, last + 1);
     const ys = route.stations.y_m.slice(first, last + 1);
     this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(28), duration: 200 });
+  }
+
+  /** Where the map has become smaller, or controls larger, the places of the plan come back into sight. */
+  keepInSight(): void {
+    const { start, goal, waypoints } = store.state.drawn;
+    const [top, right, bottom, left] = this.margins(14);
+    const [width, height] = this.map.getSize() ?? [0, 0];
+    const hidden = [start, goal, ...waypoints].some((place) => {
+      const pixel = place && this.map.getPixelFromCoordinate([place.x_m, place.y_m]);
+      return pixel && (pixel[0]! < left! || pixel[0]! > width! - right! || pixel[1]! < top! || pixel[1]! > height! - bottom!);
+    });
+    if (hidden && !this.drawn.dragged) this.showRoutes();
   }
 
   showRoutes(): void {

@@ -1,7 +1,7 @@
 // What recorded drives show that the simulator lacks: verdict, ladder, effects, where, and the way back to planning.
 import { address, token, type Diagnosis, type TerrainDocument } from "../api/client";
 import { button, field, fill, h, select, swatch } from "../dom";
-import { number, sentence, share, words } from "../format";
+import { number, roverWords, sentence, share, words } from "../format";
 import { gapLabels } from "../map/gap_layer";
 import { store, type Rung, type State } from "../state";
 import { keep } from "../work";
@@ -142,7 +142,7 @@ function replan(job: string, d: Diagnosis): HTMLElement {
     const may_choose = nominal.soils.length === 1 && !same;
     fill(box,
       h("h3", {}, "Plan with what was found"),
-      h("p", {}, `The corrected ${words(nominal.rover)} drives, and ground that the campaign called ${nominal.soils.map(words).join(", ")} is the corrected one.`),
+      h("p", {}, `The corrected rover (${roverWords(nominal.rover)}) drives, and ground that the campaign called ${nominal.soils.map(words).join(", ")} is the corrected one.`),
       may_choose && known.length === 0 ? h("p", { class: "hint" }, `${terrain?.terrain?.title ?? "The terrain"} has no map of soils, so that the rover and its motors alone are corrected: choose another terrain above for its ground.`) : null,
       may_choose && known.length > 0 ? h("fieldset", {}, h("legend", {}, `Which ground of ${terrain?.terrain?.title ?? "the terrain"} is that ground?`), boxes.map((b) => h("label", { class: "check" }, b.box, words(b.name))), h("p", { class: "hint" }, "None: only the rover and its motors are corrected.")) : null,
       button("Plan with the corrected model", () => {
