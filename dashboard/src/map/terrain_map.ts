@@ -280,9 +280,10 @@ export class TerrainMap {
       store.follow({ drive: store.state.followed.drive === drive ? "" : drive });
       return;
     }
-    const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
-    if (route === undefined) return;
-    store.set({ route });
+    // Route 0 would not end the search: it counts from 1 here.
+    const route = this.map.forEachFeatureAtPixel(pixel, (feature) => ((feature.get("route") as number | undefined) ?? -1) + 1, { hitTolerance: 10, layerFilter: (l) => l === this.routes.layer });
+    if (!route) return;
+    store.set({ route: route - 1 });
     this.hover(coordinate);
     this.tellWhy();
   }
@@ -311,7 +312,8 @@ export class TerrainMap {
   /** The window of a recorded drive that is there. */
   private windowAt(pixel: number[]): number | undefined {
     if (store.state.tab !== "drives" || !store.state.followed.diagnosis) return undefined;
-    return this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("window") as number | undefined, { hitTolerance: 4, layerFilter: (l) => l === this.gap.layer });
+    const window = this.map.forEachFeatureAtPixel(pixel, (feature) => ((feature.get("window") as number | undefined) ?? -1) + 1, { hitTolerance: 4, layerFilter: (l) => l === this.gap.layer });
+    return window ? window - 1 : undefined;
   }
 
   /** The place along the chosen route that the pointer is at. */
