@@ -55,7 +55,7 @@ export function folded(element: HTMLDetailsElement, summary: () => string, conte
 let labels = 0;
 
 /** A label with its field; the field's name for screen readers is the label's text. */
-export function field<E extends HTMLElement>(label: string, control: E, hint?: string): HTMLElement {
+export function field<E extends HTMLElement>(label: string, control: E, hint?: string | (string | Node)[]): HTMLElement {
   control.id ||= `field-${++labels}`;
   const described = hint ? h("small", { id: `${control.id}-hint` }, hint) : null;
   if (described) control.setAttribute("aria-describedby", described.id);

@@ -51,7 +51,7 @@ export async function open(browser, url, { expected = /(?!)/, ...options } = {})
     /** No names of the service's own making: people read words. What is a command or a file's text is left out. */
     async plain(where) {
       const text = await page.evaluate(() => {
-        const left_out = [...document.querySelectorAll("pre, textarea, select, .paper")];
+        const left_out = [...document.querySelectorAll("pre, code, textarea, .paper")];
         for (const one of left_out) one.dataset.unread = one.style.visibility;
         for (const one of left_out) one.style.visibility = "hidden";
         const seen = document.body.innerText;

@@ -3915,6 +3915,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -3985,6 +3994,15 @@ export interface operations {
                     "text/plain": string;
                 };
             };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4022,6 +4040,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4061,6 +4088,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4098,6 +4134,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4616,6 +4661,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4653,6 +4707,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4692,6 +4755,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4729,6 +4801,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4768,6 +4849,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4805,6 +4895,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -5019,6 +5118,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {

@@ -38,13 +38,15 @@ export class TripLabels {
     const { x_m, y_m } = route.stations;
     const line = x_m.map((x, i) => [x, y_m[i]!]);
     const middle = (Math.min(...x_m) + Math.max(...x_m)) / 2;
-    for (const [k, texts] of labelled(route)) {
+    for (const [index, [k, texts]] of [...labelled(route)].entries()) {
       const at = line[k]!;
       const feature = new Feature(new Point(at));
       feature.setStyle((_, resolution) => {
         // Below a mark that is at the same place.
         const down = marks.some((m) => Math.hypot(m[0]! - at[0]!, m[1]! - at[1]!) < mark_px * resolution) ? below_px : 0;
-        const inwards = at[0]! > middle ? [sides[1]!, sides[0]!, ...sides.slice(2)] : sides;
+        // Neighbours go above and below by turns.
+        const [below, above] = index % 2 === 0 ? sides.slice(2) : sides.slice(2).reverse();
+        const inwards = at[0]! > middle ? [sides[1]!, sides[0]!, below!, above!] : [sides[0]!, sides[1]!, below!, above!];
         return style(texts, down, freest([at[0]!, at[1]! - down * resolution], texts, resolution, marks, line, inwards));
       });
       this.source.addFeature(feature);

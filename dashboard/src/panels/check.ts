@@ -119,7 +119,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
       tellTyped();
       store.draw({ path: [] });
     }, { class: "quiet" })),
-    field("Corners as CSV or GeoJSON, or commands", text, "A CSV has columns x_m and y_m. Commands are drive=METRES, turn=DEGREES, arc=METRES,RADIUS; left is positive."),
+    field("Corners as CSV or GeoJSON, or commands", text, ["A CSV has columns ", h("code", {}, "x_m"), " and ", h("code", {}, "y_m"), ". Commands are drive=METRES, turn=DEGREES, arc=METRES,RADIUS; left is positive."]),
     field("or a file", file),
     startFields,
     h("details", {}, h("summary", {}, "A drive under way"),
