@@ -13,8 +13,8 @@ interface Example {
 const place = (x_m: number, y_m: number) => ({ x_m, y_m });
 const ground = "gale";
 const examples: Example[] = [
-  { words: "A short drive on sand that is known: a GO", tab: "plan", drawn: { start: place(8142566, -276711), goal: place(8142566, -276696) } },
-  { words: "35 m over ground that no map names", tab: "plan", drawn: { start: place(8142640, -276640), goal: place(8142675, -276650) } },
+  { words: "A short drive: a GO", tab: "plan", drawn: { start: place(8142566, -276711), goal: place(8142566, -276696) } },
+  { words: "35 m onto ground that no map names", tab: "plan", drawn: { start: place(8142640, -276640), goal: place(8142675, -276650) } },
   { words: "A path onto a slope: a NO-GO, and why", tab: "check", drawn: { path: [place(8142448, -276684), place(8142460, -276684)] } },
 ];
 
