@@ -18,6 +18,14 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** The same for a drawing. */
+export function svg(tag: string, attributes: Record<string, string | number>, ...children: SVGElement[]): SVGElement {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
 function append(element: HTMLElement, children: (Child | Child[])[]): void {
   for (const child of children.flat()) {
     if (child === null || child === undefined || child === false) continue;
@@ -47,7 +55,7 @@ export function folded(element: HTMLDetailsElement, summary: () => string, conte
 let labels = 0;
 
 /** A label with its field; the field's name for screen readers is the label's text. */
-export function field<E extends HTMLElement>(label: string, control: E, hint?: string): HTMLElement {
+export function field<E extends HTMLElement>(label: string, control: E, hint?: string | (string | Node)[]): HTMLElement {
   control.id ||= `field-${++labels}`;
   const described = hint ? h("small", { id: `${control.id}-hint` }, hint) : null;
   if (described) control.setAttribute("aria-describedby", described.id);

@@ -1,4 +1,5 @@
 // Numbers as people read them, always with their unit.
+import type { Body } from "./map/body";
 
 export function number(value: number | null | undefined, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
@@ -40,8 +41,26 @@ export function words(name: string): string {
   return name.replaceAll("_", " ");
 }
 
-/** "8142579.73, -276648.74" and the like; nothing where it is no place. */
-export function readPlace(text: string): { x_m: number; y_m: number } | null {
+/** "msl-class" and the like, as people write it. */
+export const roverWords = (name: string): string => words(name).replace(/-/g, " ").replace(/^(msl|mer|fido|m2020)\b/, (short) => short.toUpperCase()).replace(/^[a-z]/, (first) => first.toUpperCase());
+
+/** "lf" is the left front wheel; wheels of other names keep them. */
+export function wheelWords(name: string): string {
+  const [, side, row] = /^([lr])([fmr])$/.exec(name) ?? [];
+  return side && row ? `${{ l: "left", r: "right" }[side]} ${{ f: "front", m: "middle", r: "rear" }[row]} wheel` : `wheel ${words(name)}`;
+}
+
+/** A name without the unit at its end, which is said beside it. */
+export const bareName = (name: string, unit: string | undefined): string => (unit && unit !== "1" ? name.replace(/_(deg|m|c|a|w|n|nm|kpa|pa|k|s|m_s|w_k|1_k|mm|cm|kg|hz|rad)$/i, "") : name);
+
+/** "8142579.73, -276648.74", "137.37 E, 4.67 S" and the like; nothing where it is no place. */
+export function readPlace(text: string, body?: Body | null): { x_m: number; y_m: number } | null {
+  const degrees = [...text.matchAll(/(-?\d+(?:\.\d+)?)\s*°?\s*([EWNS])\b/gi)].map(([, value, letter]) => ({ value: Number(value) * (/[WS]/i.test(letter!) ? -1 : 1), east: /[EW]/i.test(letter!) }));
+  if (degrees.length === 2 && degrees[0]!.east !== degrees[1]!.east) {
+    const [east, north] = degrees[0]!.east ? degrees : [...degrees].reverse();
+    const place = body?.fromDegrees(east!.value, north!.value);
+    return place ? { x_m: Math.round(place[0] * 100) / 100, y_m: Math.round(place[1] * 100) / 100 } : null;
+  }
   const numbers = text.trim().split(/[\s,;]+/).map(Number);
   if (numbers.length !== 2 || numbers.some((n) => !Number.isFinite(n)) || text.trim() === "") return null;
   return { x_m: numbers[0]!, y_m: numbers[1]! };

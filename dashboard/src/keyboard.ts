@@ -14,7 +14,8 @@ export const keys: [string, string][] = [
   ["1 to 8", "choose a route"],
   ["Ctrl+Enter", "plan or check"],
   ["Ctrl+Z", "take back what was drawn last"],
-  ["Escape", "stop drawing"],
+  ["Escape", "stop drawing, close what is open"],
+  ["Y", "why the route has its colour at the cursor"],
   ["Ctrl+P", "a page of paper of the route that is shown"],
   ["?", "this list"],
 ];
@@ -37,11 +38,13 @@ export function keyboard(map: TerrainMap, mapElement: HTMLElement, charts: Profi
     const count = Number(event.key);
     if (tool) {
       if (tool === "corner") store.set({ tab: "check" });
-      store.set({ tool: store.state.tool === tool ? "look" : tool });
+      store.set({ tool }); // pressed again it stays: Escape ends it
     } else if (event.key === "Escape") {
       map.stopDrawing();
+      map.closeWhy();
       store.set({ tool: "look", hover_m: null });
     } else if (event.key === "?") help();
+    else if (event.key.toLowerCase() === "y") map.tellWhy();
     else if (target.closest(".charts") && (event.key === "ArrowLeft" || event.key === "ArrowRight")) charts.step((event.shiftKey ? 10 : 1) * (event.key === "ArrowLeft" ? -1 : 1));
     else if (event.key === "," || event.key === "<") charts.step(event.shiftKey ? -10 : -1);
     else if (event.key === "." || event.key === ">") charts.step(event.shiftKey ? 10 : 1);

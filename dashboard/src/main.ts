@@ -1,5 +1,5 @@
 // Puts the page together.
-import { get, ServiceError, type Terrain, type TerrainDocument } from "./api/client";
+import { get, hasEnded, ServiceError, type Terrain, type TerrainDocument } from "./api/client";
 import { takeFirst, terrainAddress } from "./api/first";
 import { button, fill, h, select } from "./dom";
 import { keyboard } from "./keyboard";
@@ -9,14 +9,18 @@ import { drivesPanel } from "./panels/drives";
 import { jobView } from "./panels/job_view";
 import { jobsPanel } from "./panels/jobs";
 import { layersPanel } from "./panels/layers";
+import { mapVerdict } from "./panels/map_verdict";
 import { planPanel } from "./panels/plan";
+import { staleness } from "./panels/request";
 import { takesUploads, terrainUpload } from "./panels/uploads";
 import { verdictPanel } from "./panels/verdict";
+import { isAboutRoutes } from "./result";
 import { readLink, writeLink, type Link } from "./permalink";
 import { reportPage } from "./report";
 import { reopenRiskMap } from "./map/risk_map";
 import { loading, problemView } from "./problem";
 import { ProfileCharts } from "./profile/charts";
+import { leanView } from "./map/lean";
 import { readout } from "./map/readout";
 import { help, signIn, theme } from "./session";
 import { firstTool, store, type Drawn, type Place, type Ring, type Tab, type Tool } from "./state";
@@ -34,7 +38,10 @@ const readoutLine = h("div", { class: "map-readout", role: "status", "aria-live"
 const aim = h("div", { class: "map-aim", role: "status" });
 const layerBox = h("div", { class: "layers" });
 const profile = h("div", { class: "profile" });
-const stage = h("div", { class: "stage bare" }, h("div", { class: "map-box" }, mapElement, aim, layerBox, readoutLine), profile);
+const onMap = h("div", { class: "map-verdict", role: "status", "aria-live": "polite" });
+const lean = h("div", { class: "map-lean off" });
+const frame = h("div", { class: "map-frame" }, mapElement, h("div", { class: "map-top" }, aim, onMap), lean, readoutLine);
+const stage = h("div", { class: "stage bare" }, h("div", { class: "map-box" }, frame, layerBox), profile);
 let wasEmpty = true;
 const panels = Object.fromEntries(tabs.map(([tab]) => [tab, h("div", { class: "panel", id: `panel-${tab}`, role: "tabpanel", "aria-labelledby": `tab-${tab}` })])) as unknown as Record<Tab, HTMLElement>;
 const work = h("div", { class: "work" });
@@ -54,14 +61,19 @@ document.body.append(
   h("main", {}, side, stage),
 );
 
-const map = new TerrainMap(mapElement, (coordinate) => readout(readoutLine, map, coordinate));
+// First, so that all that is drawn knows it.
+store.on(["result", "drawn", "options", "terrain", "rules", "typed"], (state) => store.set({ stale: staleness(state) }));
+const controls = () => [...frame.querySelectorAll<HTMLElement>(".ol-zoom, .scale-bar, .map-top > *, .map-lean, .map-readout"), layerBox];
+const map = new TerrainMap(mapElement, (coordinate) => readout(readoutLine, map, coordinate), controls);
 const charts = new ProfileCharts(profile);
 // Each is made when it is first looked at.
-const makePanel: Record<Tab, ((target: HTMLElement) => void) | null> = { plan: planPanel, check: (target) => checkPanel(target, map), jobs: jobsPanel, drives: drivesPanel };
+const makePanel: Record<Tab, ((target: HTMLElement) => void) | null> = { plan: (target) => planPanel(target, map), check: (target) => checkPanel(target, map), jobs: jobsPanel, drives: drivesPanel };
 jobView(work);
 const print = reportPage(map, redraw);
 verdictPanel(verdict, map, () => void print());
 layersPanel(layerBox, map);
+mapVerdict(onMap);
+leanView(lean);
 keyboard(map, mapElement, charts, keyHelp.open);
 
 function openTab(tab: Tab): void {
@@ -78,6 +90,7 @@ for (const [tab, words] of tabs) {
   });
   tabList.append(press);
 }
+store.on(["stale", "job", "result"], ({ stale, job }) => profile.classList.toggle("of-before", stale === "all" || (job !== null && isAboutRoutes(job.kind) && !hasEnded(job))));
 store.on(["tab"], ({ tab }) => {
   makePanel[tab]?.(panels[tab]);
   makePanel[tab] = null;
@@ -92,14 +105,14 @@ store.on(["tab"], ({ tab }) => {
 const aims: Partial<Record<Tool, string>> = {
   start: "Click where the drive starts",
   goal: "Click where it is to go",
-  waypoint: "Click the places to pass, in their order; Escape ends",
-  keep_out: "Click the corners of ground to keep out of; a double click ends, Escape gives up",
-  keep_in: "Click the corners of ground to stay in; a double click ends, Escape gives up",
-  corner: "Click the corners of the path; Escape ends",
+  waypoint: "Click the places to pass, in their order",
+  keep_out: "Click the corners of ground to keep out of; a double click ends",
+  keep_in: "Click the corners of ground to stay in; a double click ends",
+  corner: "Click the corners of the path",
 };
 store.on(["tool", "tab", "followed", "terrains"], ({ tool, tab, followed, terrains }) => {
   const bare = tab === "drives" && followed.diagnosis !== null && followed.terrain !== "" && !terrains.some((t) => t.name === followed.terrain);
-  fill(aim, bare ? `Ground of the drives: ${followed.terrain.replaceAll("_", " ")}` : aims[tool]);
+  fill(aim, bare ? `Ground of the drives: ${followed.terrain.replaceAll("_", " ")}` : aims[tool], !bare && aims[tool] && !["start", "goal"].includes(tool) ? button("Done", () => (map.stopDrawing(), store.set({ tool: "look" })), { class: "quiet tiny", "data-do": "done", title: "Key Escape" }) : null);
 });
 // Without a profile the map has its room.
 store.on(["result", "tab", "followed"], ({ result, tab, followed }) => {
@@ -107,8 +120,15 @@ store.on(["result", "tab", "followed"], ({ result, tab, followed }) => {
   if (stage.classList.toggle("bare", empty) !== wasEmpty) map.map.updateSize();
   wasEmpty = empty;
 });
+let brought = "";
 store.on(["result"], ({ result }) => {
-  if (!result) return;
+  if (!result || result.job === brought) return;
+  brought = result.job;
+  // After a drag the page stays where it is.
+  if (result.quiet) {
+    map.map.once("postrender", () => map.keepInSight());
+    return;
+  }
   map.showRoutes();
   bringUp(verdict);
 });

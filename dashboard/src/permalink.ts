@@ -1,7 +1,8 @@
 // What is shown, in the address: a link to it shows it again, and a reload loses nothing.
 import { riskTitles } from "./map/risk_map";
 import type { RiskKind } from "./map/risk_types";
-import { nothingDrawn, store, type Drawn, type Model, type Options, type Place, type Ring, type RouteColour, type State, type Tab } from "./state";
+import { limits } from "./limits";
+import { nothingDrawn, routeColours, store, type Drawn, type Model, type Options, type Place, type Ring, type State, type Tab } from "./state";
 
 export interface Link {
   terrain: string;
@@ -43,6 +44,7 @@ export function writeLink(state: State, view: Link["view"]): string {
   put("path", places(drawn.path));
   put("out", rings(drawn.keep_out));
   put("in", rings(drawn.keep_in));
+  put("limits", Object.entries(options.limits).map(([k, v]) => `${k}:${v}`).join(","));
   put("weights", Object.entries(options.weights).map(([k, v]) => `${k}:${v}`).join(","));
   put("routes", options.routes === 3 ? "" : options.routes);
   put("seed", options.seed === 1 ? "" : options.seed);
@@ -106,18 +108,19 @@ export function readLink(hash: string): Link {
     rover: q.get("rover") ?? "",
     rules: q.get("rules") ?? "",
     legend: q.get("legend") ?? "",
+    limits: Object.fromEntries(pairs(q.get("limits")).filter(([key]) => limits.some((limit) => limit.key === key))),
     weights: Object.fromEntries(pairs(q.get("weights"))),
     routes: Number(q.get("routes")) || 3,
     seed: Number(q.get("seed")) || 1,
     model: readModel(q.get("model")),
     effects: readEffects(q.get("effects")),
-    failedWheels: Object.fromEntries((q.get("failed") ?? "").split(",").map((pair) => pair.split(":")).filter((pair) => pair.length === 2)),
+    failedWheels: Object.fromEntries((q.get("failed") ?? "").split(",").map((pair) => pair.split(":")).filter(([, how]) => ["locked", "free", "off"].includes(how ?? ""))),
     confidence: Number(q.get("confidence")) || null,
     unknownSoil: q.get("unknown") ?? "",
     draws: Number(q.get("draws")) || null,
   };
   const tab = (["plan", "check", "jobs", "drives"] as Tab[]).find((t) => t === q.get("tab")) ?? "plan";
-  const colour = (["risk", "slip", "plain"] as RouteColour[]).find((c) => c === q.get("colour")) ?? "risk";
+  const colour = routeColours.find((c) => c === q.get("colour")) ?? "risk";
   const layers = { ...store.state.layers, ...Object.fromEntries(pairs(q.get("layers")).filter(([k]) => k in store.state.layers)) };
   store.set({ drawn, options, tab, layers, routeColour: colour, route: Number(q.get("route")) || 0 });
   const view = (q.get("view") ?? "").split(",").map(Number);

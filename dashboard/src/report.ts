@@ -1,12 +1,13 @@
 // A page of paper: what the meeting needs of a route, legible in black and white.
 import { fill, h } from "./dom";
-import { number, sentence, share, words } from "./format";
+import { number, roverWords, sentence, share, wheelWords, words } from "./format";
 import { lengthText } from "./map/scale_bar";
 import type { TerrainMap } from "./map/terrain_map";
 import { reasonText } from "./panels/advice";
 import { figures, nearest, provenance, unit } from "./panels/verdict";
 import { verdictWords, type Result, type Route } from "./result";
 import { palettes, store } from "./state";
+import { causeWords } from "./why";
 
 const paper = h("section", { class: "paper", "aria-hidden": "true" });
 const kindWords: Record<string, string> = { plan: "Plan of a drive", check: "Check of a drive", prediction: "Prediction of a drive" };
@@ -57,7 +58,7 @@ function page(map: TerrainMap): HTMLElement[] {
     h("h2", {}, "Rules: limit, nearest value (5 to 95 % of the draws), share of the draws in which it trips, where, why"),
     ruleTable(route),
     h("div", { class: "paper-charts" }, chartPictures()),
-    h("footer", {}, provenance(result).slice(0, 5).map(([k, v]) => `${k} ${v}`).join(" · ")),
+    h("footer", {}, [...provenance(result).slice(0, 4), ["Fingerprint of the map", result.provenance.terrain_fingerprint ?? "–"]].map(([k, v]) => `${k} ${v}`).join(" · ")),
   ];
 }
 
@@ -65,7 +66,7 @@ function asked(result: Result): string {
   const { options } = store.state;
   const request = result.request as { keep_out?: unknown[]; keep_in?: unknown[]; model?: unknown };
   const parts = [
-    `Rover ${result.rover}`,
+    `Rover ${roverWords(result.rover)}`,
     `rules ${options.rules ? words(options.rules) : "of the service"}`,
     `soils as ${words(result.provenance.legend ?? "–")}`,
     (request.keep_out ?? []).length > 0 ? `${request.keep_out!.length} zones to keep out of` : "",
@@ -91,7 +92,7 @@ function figureTable(result: Result): HTMLElement {
 
 function ruleTable(route: Route): HTMLElement {
   return h("table", {}, h("tbody", {}, route.outcomes.rules.map((r) => h("tr", { class: r.from_m !== null ? "trips" : "" },
-    h("th", {}, sentence(r.words)), h("td", {}, `${number(r.limit)}${unit(r.unit)}`), h("td", {}, nearest(r)), h("td", {}, share(r.trips.value)), h("td", {}, r.from_m === null ? "" : `${r.from_m.toFixed(0)} to ${r.to_m?.toFixed(0)} m`), h("td", {}, [r.cause && words(r.cause), r.wheel].filter(Boolean).join(", "))))));
+    h("th", {}, sentence(r.words)), h("td", {}, `${number(r.limit)}${unit(r.unit)}`), h("td", {}, nearest(r)), h("td", {}, share(r.trips.value)), h("td", {}, r.from_m === null ? "" : `${r.from_m.toFixed(0)} to ${r.to_m?.toFixed(0)} m`), h("td", {}, [r.cause && causeWords(r.cause), r.wheel && wheelWords(r.wheel)].filter(Boolean).join(", "))))));
 }
 
 function chartPictures(): HTMLElement[] {

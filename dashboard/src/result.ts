@@ -1,6 +1,7 @@
 // The answers of plans, predictions and checks, as the same thing: routes with a verdict, rules and stations.
-import { get, type Job } from "./api/client";
+import { get, type Job, type Limits, type Rover } from "./api/client";
 import type { components } from "./api/types";
+import type { Question } from "./panels/request";
 
 type Schemas = components["schemas"];
 type Column = (number | null)[];
@@ -10,6 +11,7 @@ export interface Stations {
   distance_m: number[];
   x_m: number[];
   y_m: number[];
+  yaw_deg: number[];
   height_m: number[];
   pitch_deg: Column;
   roll_deg: Column;
@@ -46,7 +48,7 @@ export interface Route {
   title: string;
   verdict: Verdict;
   decision: Schemas["Decision"];
-  figures: Schemas["DriveFigures"];
+  figures: Schemas["DriveFigures"] & Partial<Pick<Schemas["RouteFigures"], "cost" | "cost_shares">>;
   stations: Stations;
   outcomes: Schemas["DriveOutcomes"];
   notes: string[]; // what made a plan rank it as it did
@@ -70,7 +72,9 @@ export interface Result {
   rover: string;
   terrain: string;
   request: Record<string, unknown>;
-  limits: Record<string, number>;
+  asked: Question; // what the form asked when this was its answer
+  quiet: boolean; // asked by a drag: the page stays where it is
+  limits: Limits & Record<string, number>;
   provenance: { soil_assumption?: string; legend?: string; slipway?: string; terrain_fingerprint?: string; seed?: number };
   fewer: string[];
   driven: DrivenStretch[]; // of a drive under way: what was measured against what had been predicted
@@ -92,7 +96,7 @@ function routeOf(properties: any, document: any, title: string): Route {
 }
 
 /** What a finished job answered, if it is about routes. */
-export async function readResult(job: Job): Promise<Result> {
+export async function readResult(job: Job, asked: Question, quiet: boolean): Promise<Result> {
   const document: any = await get(`v1/jobs/${job.id}/result`);
   const features: any[] = document.routes?.features ?? [];
   return {
@@ -102,6 +106,8 @@ export async function readResult(job: Job): Promise<Result> {
     rover: document.rover?.name ?? document.request?.rover ?? "",
     terrain: document.terrain?.name ?? document.request?.terrain ?? "",
     request: document.request ?? {},
+    asked,
+    quiet,
     limits: { ...document.request?.limits, ...document.request?.bars, ...document.request?.checks },
     provenance: document.provenance ?? {},
     fewer: document.fewer_because ?? [],
@@ -112,6 +118,9 @@ export async function readResult(job: Job): Promise<Result> {
   };
 }
 /* eslint-enable */
+
+/** The rover that drove; a corrected one has the name of the one that it was made of before its own. */
+export const roverOf = ({ rover }: { rover: string }, rovers: Rover[]): Rover | undefined => rovers.find((r) => r.name === rover) ?? rovers.find((r) => rover.startsWith(`${r.name}-`));
 
 export const isAboutRoutes = (kind: string): boolean => ["plan", "prediction", "check"].includes(kind);
 
@@ -145,6 +154,7 @@ export function classesOf(route: Route, by: "risk" | "slip", bounds: number[]): 
 export const classTitles = {
   risk: "Halts and embeddings on a stretch, share of the draws",
   slip: "Slip (95 % of the draws are below)",
+  limits: "The limit that most draws pass at a place",
 };
 
 export const classLabels = (bounds: number[]): string[] => [`below ${bounds[0]}`, ...bounds.slice(1).map((b, i) => `${bounds[i]} to ${b}`), `above ${bounds.at(-1)}`];

@@ -1,5 +1,5 @@
 // What the page shows, in one place; parts of the page listen to the keys that they draw.
-import type { CostTerm, Campaign, Diagnosis, Effect, Job, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
+import type { CostTerm, Campaign, Diagnosis, Effect, Job, Limits, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
 import type { RiskMap } from "./map/risk_types";
 import type { Result } from "./result";
 
@@ -11,7 +11,8 @@ export type Ring = [number, number][];
 
 export type Tab = "plan" | "check" | "jobs" | "drives";
 export type Tool = "look" | "start" | "goal" | "waypoint" | "keep_out" | "keep_in" | "corner";
-export type RouteColour = "risk" | "slip" | "plain";
+export type RouteColour = "risk" | "slip" | "limits" | "plain";
+export const routeColours: RouteColour[] = ["risk", "slip", "limits", "plain"];
 export type LayerName = "slope" | "soil" | "unknown";
 
 /** What is drawn on the map and asked for: what undo takes back. */
@@ -28,12 +29,13 @@ export interface Options {
   rover: string;
   rules: string; // "": the service's own limits
   legend: string; // "": the terrain's first
+  limits: Limits; // those that were moved away from the rules'
   weights: Record<string, number>; // those that differ from the service's
   routes: number;
   seed: number;
   model: Model | null; // that a diagnosis has corrected
   effects: { name: string; on: boolean; parameters: Record<string, number> }[]; // that differ from the rover's own
-  failedWheels: Record<string, string>;
+  failedWheels: Record<string, "locked" | "free" | "off">;
   confidence: number | null; // that a mapped class is the soil that the legend gives; null: the terrain's own
   unknownSoil: string; // "": the belief about unknown ground
   draws: number | null; // of the ground; null: as many as the verdict needs
@@ -45,6 +47,9 @@ export interface Model {
   rover: string; // in whose place the corrected one drives
   ground: string[]; // soils of the terrain that are the campaign's
 }
+
+/** What of the answer on the screen is not what the form asks: nothing, only the limits that it is judged by, or all of it. */
+export type Stale = "" | "limits" | "all";
 
 /** How a gap was left: by the model as it was, re-tuned, with the effects that were found. */
 export type Rung = "nominal" | "retuned" | "with_effects";
@@ -82,6 +87,8 @@ export interface State {
   jobs: Job[] | null;
   job: Job | null; // that is followed
   result: Result | null;
+  stale: Stale; // of the result
+  typed: string; // commands and telemetry of the check's form
   other: Result | null; // kept beside it, for comparison
   route: number; // index of the chosen route of the result
   compared: number | null; // index of a second route of it
@@ -119,7 +126,7 @@ class Store {
     followed: nothingFollowed,
     terrain: null,
     drawn: nothingDrawn,
-    options: { rover: "", rules: "", legend: "", weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null },
+    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null },
     tool: "look",
     layers: { slope: 0, soil: 0, unknown: 0.6 },
     swipe: null,
@@ -130,6 +137,8 @@ class Store {
     jobs: null,
     job: null,
     result: null,
+    stale: "",
+    typed: "",
     other: null,
     route: 0,
     compared: null,
@@ -151,8 +160,18 @@ class Store {
   }
 
   draw(change: Partial<Drawn>): void {
+    this.remember();
+    this.move(change);
+  }
+
+  /** What is drawn now is what undo brings back. */
+  remember(): void {
     this.past.push(this.state.drawn);
     if (this.past.length > 200) this.past.shift();
+  }
+
+  /** A step of a drag: undo takes the drag back as one. */
+  move(change: Partial<Drawn>): void {
     this.set({ drawn: { ...this.state.drawn, ...change } });
   }
 

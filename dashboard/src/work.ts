@@ -1,37 +1,21 @@
 // One piece of work at a time: asked for, followed, shown.
-import { ask, get, hasEnded, ServiceError, submit, type Job } from "./api/client";
+import { ask, get, hasEnded, ServiceError, submit, type Asked, type CheckRequest, type Job, type PlanRequest, type RequestOf } from "./api/client";
 import { follow } from "./api/events";
 import { openDiagnosis, openWatch } from "./followed";
-import { isAboutRoutes, readResult, type Result } from "./result";
+import { planRequest, question, type Question } from "./panels/request";
+import { isAboutRoutes, readResult, roverOf, type Result } from "./result";
 import { store, type Place, type Ring } from "./state";
-
-interface Asked {
-  start?: Place;
-  goal?: Place;
-  waypoints?: Place[];
-  path?: Place[];
-  keep_out?: Ring[];
-  keep_in?: Ring[];
-  rover?: string;
-  effects?: { name: string; on?: boolean; parameters?: Record<string, number> }[];
-  failed_wheels?: Record<string, string>;
-  confidence?: number;
-  unknown_soil?: string;
-  draws?: number;
-  legend?: string;
-  model?: { diagnosis: string; ground?: string[] };
-}
 
 /** What was asked for becomes what is drawn and what the form has. */
 function takeRequest({ request, rover: driven }: Result): void {
-  const asked = request as Asked;
+  const asked = request as Partial<PlanRequest & CheckRequest>;
   const place = (p: Place | undefined): Place | null => (p ? { x_m: p.x_m, y_m: p.y_m } : null);
-  const { drawn, options, rovers } = store.state;
-  // A corrected rover has the name of the one that it was made of before its own.
-  const rover = rovers.find((r) => r.name === driven)?.name ?? rovers.find((r) => driven.startsWith(`${r.name}-`))?.name ?? options.rover;
+  const { drawn, options, rovers, costTerms } = store.state;
+  const usual = (term: string) => costTerms.find((t) => t.name === term)?.weight?.initial;
+  const rover = roverOf({ rover: driven }, rovers)?.name ?? options.rover;
   store.set({
     tool: "look",
-    drawn: { ...drawn, start: place(asked.start) ?? drawn.start, goal: place(asked.goal) ?? drawn.goal, waypoints: asked.waypoints ?? drawn.waypoints, path: asked.path ?? drawn.path, keep_out: asked.keep_out ?? [], keep_in: asked.keep_in ?? [] },
+    drawn: { ...drawn, start: place(asked.start) ?? drawn.start, goal: place(asked.goal) ?? drawn.goal, waypoints: asked.waypoints ?? drawn.waypoints, path: asked.path ?? drawn.path, keep_out: (asked.keep_out as Ring[] | undefined) ?? [], keep_in: (asked.keep_in as Ring[] | undefined) ?? [] },
     options: {
       ...options,
       rover,
@@ -41,6 +25,9 @@ function takeRequest({ request, rover: driven }: Result): void {
       unknownSoil: asked.unknown_soil ?? "",
       draws: asked.draws ?? null,
       legend: asked.legend ?? options.legend,
+      routes: asked.routes ?? options.routes,
+      seed: asked.seed ?? options.seed,
+      weights: asked.weights ? Object.fromEntries(Object.entries(asked.weights).filter(([term, weight]) => weight !== usual(term))) : options.weights,
       model: asked.model ? { diagnosis: asked.model.diagnosis, campaign: options.model?.diagnosis === asked.model.diagnosis ? options.model.campaign : "", rover, ground: asked.model.ground ?? [] } : null,
     },
   });
@@ -49,21 +36,28 @@ function takeRequest({ request, rover: driven }: Result): void {
 let following: AbortController | null = null;
 
 /** Asks for work and follows it; what goes wrong is in the state. */
-export async function start(path: string, request: unknown): Promise<void> {
+export async function start<P extends Asked>(path: P, request: RequestOf<P>): Promise<void> {
   const { result, other, options } = store.state;
   // A plan with a corrected model stands beside the one that was made without it.
   const beside = path === "v1/plans" && options.model !== null && result?.kind === "plan" && !("model" in result.request) && result.terrain === store.state.terrain?.terrain?.name;
   store.set({ error: null, other: beside ? result : other });
+  const asked = question(path === "v1/plans" ? "plan" : "check");
   try {
     const { job } = await submit(path, request);
-    await watch(job);
+    await watch(job, asked);
   } catch (error) {
     report(error);
   }
 }
 
-/** Follows a job and shows its answer. */
-export async function watch(job: Job): Promise<void> {
+/** Asks for the plan of what is drawn, if that is enough for one. */
+export function planNow(): void {
+  const request = planRequest();
+  if (request) void start("v1/plans", request);
+}
+
+/** Follows a job and shows its answer, which is one to what the form asked. */
+export async function watch(job: Job, asked: Question, quiet = false): Promise<void> {
   following?.abort();
   const mine = (following = new AbortController());
   store.set({ job, error: null });
@@ -73,7 +67,8 @@ export async function watch(job: Job): Promise<void> {
     store.set({ job: end });
     if (end.state === "failed" && end.problem) throw new ServiceError(end.problem.status ?? 500, end.problem);
     if (end.state === "successful" && isAboutRoutes(end.kind)) {
-      const result = await readResult(end);
+      const result = await readResult(end, asked, quiet);
+      if (mine.signal.aborted) return;
       const route = store.state.route < result.routes.length ? store.state.route : 0;
       store.set({ result, route, compared: null, hover_m: null });
     }
@@ -90,9 +85,11 @@ export async function reopen(id: string): Promise<void> {
     const job = await get<Job>(`v1/jobs/${id}`);
     if (isAboutRoutes(job.kind)) store.set({ tab: job.kind === "plan" ? "plan" : "check" });
     else if (job.kind === "diagnosis" || job.kind === "watch") store.set({ tab: "drives" });
-    await watch(job);
-    const result = store.state.result;
-    if (result?.job === id) takeRequest(result);
+    await watch(job, question(job.kind));
+    const { result } = store.state;
+    if (result?.job !== id) return;
+    takeRequest(result);
+    store.set({ result: { ...result, asked: question(result.kind) } });
   } catch (error) {
     report(error);
   }

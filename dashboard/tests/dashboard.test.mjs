@@ -165,7 +165,7 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await p.fill("#panel-check textarea >> nth=0", slopes);
   await p.click('[data-do="check"]');
   assert.equal(await p.verdict(), "no_go");
-  assert.match(await p.textContent(".banner"), /^NO-GOPath, msl-classP\(stop\) \d+ % \(\d+ % to \d+ %\)$/);
+  assert.match(await p.textContent(".banner"), /^NO-GOPath, MSL classHalts in \d+ % of the draws \(\d+ % to \d+ %\)$/);
   assert.ok((await p.locator('[data-reasons="no_go"] .badge.no_go').count()) > 0, "what says no-go is marked so");
   assert.ok((await p.locator("tr.trips").count()) > 0);
   await p.locator('tr.trips button:text("m")').first().click();
@@ -269,7 +269,7 @@ test("what the service refuses is shown with every fault, and a service that is 
   await p.until(() => document.querySelector(".terrain select"));
   await p.click('[data-do="plan"]');
   await p.waitForSelector(".work .problem");
-  for (const pointer of ["/start", "/goal"]) assert.ok((await p.textContent(".work .problem")).includes(pointer), pointer);
+  for (const place of ["Start", "Goal"]) assert.ok((await p.textContent(".work .problem")).includes(place), place);
   await p.look("10_faults");
   await p.accessible("faults");
   await own.stop();

@@ -62,6 +62,10 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   await p.look("15_drives_sent");
   await p.waitForSelector("[data-diagnosis]");
   assert.equal(await p.getAttribute("[data-diagnosis]", "data-diagnosis"), "effects");
+  // A sentence comes first, not a table.
+  assert.match(await p.textContent("[data-lead]"), /^The simulator leaves out .*temperature.* of the gap in .* closes on drives that no fit had seen\.$/);
+  assert.ok(await p.evaluate(() => [...document.querySelectorAll(".diagnosis table")].every((table) => document.querySelector("[data-lead]").compareDocumentPosition(table) & Node.DOCUMENT_POSITION_FOLLOWING)));
+  await p.plain("diagnosis");
 
   // The ladder: every channel from nominal to the floor, the currents' gap closed by the effect.
   const job = new URLSearchParams(p.url().split("#")[1]).get("job");
@@ -108,7 +112,7 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   assert.deepEqual(request.postDataJSON().model, { diagnosis: job, ground: ["gale_smooth"] });
   await p.verdict();
   const corrected = p.url();
-  assert.match(await p.textContent(".verdict .banner"), /mer-class-cold.drives/, "the corrected rover drives");
+  assert.match(await p.textContent(".verdict .banner"), /MER class cold drives/, "the corrected rover drives");
   await p.look("20_planned_with_the_model");
   await p.click('[data-do="keep"]');
   await p.click('[data-do="no-model"]');

@@ -48,6 +48,19 @@ export async function open(browser, url, { expected = /(?!)/, ...options } = {})
       const serious = violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => `${n.html} ${n.any[0]?.message ?? ""}`).slice(0, 3).join(" | ")}`);
       assert.deepEqual(serious, [], where);
     },
+    /** No names of the service's own making: people read words. What is a command or a file's text is left out. */
+    async plain(where) {
+      const text = await page.evaluate(() => {
+        const left_out = [...document.querySelectorAll("pre, code, textarea, .paper")];
+        for (const one of left_out) one.dataset.unread = one.style.visibility;
+        for (const one of left_out) one.style.visibility = "hidden";
+        const seen = document.body.innerText;
+        for (const one of left_out) one.style.visibility = one.dataset.unread;
+        return seen;
+      });
+      const raw = text.match(/\b(\w+_\w+|[0-9a-f]{16,}|\w+-class)\b/g) ?? [];
+      assert.deepEqual([...new Set(raw)], [], where);
+    },
     async done() {
       assert.deepEqual(complaints, []);
       await context.close();

@@ -168,10 +168,10 @@ test("a stranger finds out why a drive is no GO, and does what is advised", asyn
   const halt = decision.reasons.join("\n").match(/a halt in (\S+ %) of the draws \(90 % interval (\S+ %) to (\S+ %)\)/);
   // Near a bar the reason has a digit more.
   const plain = (words) => (parseFloat(words) > 0 && parseFloat(words) < 10 ? `${parseFloat(words).toFixed(1)} %` : `${Math.round(parseFloat(words))} %`);
-  if (halt) assert.equal(await p.textContent("[data-stop]"), `P(stop) ${plain(halt[1])} (${plain(halt[2])} to ${plain(halt[3])})`);
-  else assert.match(await p.textContent("[data-stop]"), /^P\(stop\) \S+ % \(\S+ % to \S+ %\)$/);
+  if (halt) assert.equal(await p.textContent("[data-stop]"), `Halts in ${plain(halt[1])} of the draws (${plain(halt[2])} to ${plain(halt[3])})`);
+  else assert.match(await p.textContent("[data-stop]"), /^Halts in \S+ % of the draws \(\S+ % to \S+ %\)$/);
   assert.ok(outcomes.stop.low <= outcomes.stop.value);
-  assert.equal(await p.textContent('.compare-table tr:has(th:text-is("Mean slip")) td >> nth=0'), String(Number(mean_slip.toPrecision(3))), "the mean soils' figure, as the terminal has it");
+  assert.equal(await p.textContent('.compare-table tr:has(th:text-is("Mean slip, ratio")) td >> nth=0'), String(Number(mean_slip.toPrecision(3))), "the mean soils' figure, as the terminal has it");
   assert.deepEqual(await p.locator(".advice li button").allTextContents(), ["Make it the goal and plan again", "Look at it", "Show where"]);
   await p.look("27_why_no_go");
   await p.accessible("why it is no go");
@@ -213,7 +213,7 @@ test("an answer is taken along as files and as one page of paper", async () => {
   await p.emulateMedia({ media: "print" });
   await p.setViewportSize({ width: 760, height: 1080 });
   const text = await p.innerText(".paper");
-  for (const words of ["NO-GO", "Marias Pass", "msl-class", "Slip over a stretch between checks", "fingerprint"]) assert.ok(text.includes(words), words);
+  for (const words of ["NO-GO", "Marias Pass", "MSL class", "Slip over a stretch between checks", "Fingerprint"]) assert.ok(text.includes(words), words);
   assert.ok((await p.$$eval(".paper img", (images) => images.every((i) => i.naturalWidth > 100 && i.clientWidth > 100))), "every picture is there");
   await p.look("29_paper");
   const pdf = await p.pdf({ preferCSSPageSize: true });

@@ -93,7 +93,7 @@ class Contract(WithServer):
         described = json.loads(self.server.ask("GET", "/openapi.json")[2])["components"]["schemas"]
         for part, schema in (("limits", "DriveLimits"), ("checks", "DriveChecks"), ("bars", "DriveBars")):
             self.assertEqual(described["PlanRequest"]["properties"][part]["$ref"], f"#/components/schemas/{schema}")
-            defaults = {key: of["default"] for key, of in described[schema]["properties"].items() if "default" in of}
+            defaults = {key: of["x-default"] for key, of in described[schema]["properties"].items() if "x-default" in of}
             self.assertEqual(answer["request"][part], defaults, part)
         for rank, (row, feature) in enumerate(zip(answer["summary"], answer["routes"]["features"]), 1):
             self.assertEqual(row["rank"], rank)

@@ -189,8 +189,11 @@ class Lint:
         if schema.get("additionalProperties") is False:
             for key in set(schema.get("required", [])) - set(properties):
                 self.fault(at, f"{key} is required and not described")
-        if "default" in schema:
-            self.fits({k: v for k, v in schema.items() if k != "default"}, schema["default"], f"{at} default")
+        if "x-default" in schema:
+            self.fits({k: v for k, v in schema.items() if k != "x-default"}, schema["x-default"], f"{at} x-default")
+        for key, one in properties.items():
+            if isinstance(one, dict) and "default" in one:
+                self.fault(f"{at}/{key}", "default makes the key required in what is generated of this document: say x-default")
         if "pattern" in schema:
             try:
                 re.compile(schema["pattern"])
@@ -244,7 +247,8 @@ def breakages(document):
         (lambda d: schemas(d)["Job"]["required"].append("colour"), "required and not described"),
         (lambda d: schemas(d)["Job"].update(type="objekt"), "no JSON schema"),
         (lambda d: schemas(d).update(Unused={"type": "object"}), "nothing refers to it"),
-        (lambda d: schemas(d)["PlanRequest"]["properties"]["routes"].update(default=99), "default"),
+        (lambda d: schemas(d)["PlanRequest"]["properties"]["routes"].update({"x-default": 99}), "x-default"),
+        (lambda d: schemas(d)["PlanRequest"]["properties"]["routes"].update(default=3), "say x-default"),
         (lambda d: d.pop("servers"), "must have \"servers\""),
     ]
 

@@ -1,5 +1,5 @@
 // The one way to the service: its public API, under the path that the page came from.
-import type { components } from "./types";
+import type { components, paths } from "./types";
 
 type Schemas = components["schemas"];
 export type Terrain = NonNullable<Schemas["Terrains"]["terrains"]>[number];
@@ -93,13 +93,23 @@ export async function getAgain<T>(path: string): Promise<T> {
   return document;
 }
 
+export type PlanRequest = Schemas["PlanRequest"];
+export type CheckRequest = Schemas["CheckRequest"];
+export type MapRequest = Schemas["MapRequest"];
+export type Limits = Schemas["DriveLimits"];
+
+/** What the API document says is sent to each address that work is asked of. */
+type Sent = { [P in keyof paths as paths[P]["post"] extends { requestBody: { content: { "application/json": unknown } } } ? (P extends `/${infer Name}` ? Name : never) : never]: NonNullable<paths[P]["post"]> extends { requestBody: { content: { "application/json": infer Body } } } ? Body : never };
+export type Asked = "v1/plans" | "v1/checks" | "v1/maps" | "v1/diagnoses" | "v1/watches" | "v1/terrains" | "v1/drive-campaigns";
+export type RequestOf<P extends Asked> = Sent[P];
+
 export interface Submitted {
   id: string;
   job: Job;
 }
 
 /** Asks for work; the answer is the job. */
-export async function submit(path: string, request: unknown): Promise<Submitted> {
+export async function submit<P extends Asked>(path: P, request: RequestOf<P>): Promise<Submitted> {
   const response = await ask(path, {
     method: "POST",
     headers: { "Content-Type": "application/json", Prefer: "respond-async", "Idempotency-Key": crypto.randomUUID?.() ?? String(Math.random()) },

@@ -4,13 +4,13 @@ import { ask, hasEnded, ServiceError, type Job, type Problem } from "./client";
 const first_event_ms = 4000; // a proxy that keeps events back has not passed one on by then
 
 /**
- * Follows a job to its end. While it waits it is asked for, since its place in the queue changes without it; then the service tells.
+ * Follows a job to its end: the service tells. While others are before it it is asked for, since its place in the queue changes without it.
  * What is lost on the way is asked for again: a restart of the service loses no job.
  */
 export async function follow(id: string, seen: (job: Job) => void, signal: AbortSignal): Promise<Job> {
   const told = { id: "" };
   let listens = true;
-  let waits = true;
+  let waits = false;
   for (;;) {
     try {
       const job: Job | null = waits || !listens ? await poll(id, seen, signal, listens) : await listen(id, told, seen, signal);
@@ -57,6 +57,7 @@ async function listen(id: string, told: { id: string }, seen: (job: Job) => void
         const job = JSON.parse(event.data) as Job;
         seen(job);
         if (hasEnded(job)) return job;
+        if (job.state === "accepted" && (job.queue?.ahead ?? 0) > 0) return null;
       }
     }
   } catch (error) {

@@ -915,27 +915,17 @@ export interface components {
             };
             ranking?: {
                 /**
-                 * @description What ranks the routes and guides their search: expected, the mean cost over the draws of the ground, or cvar, the mean of the dearest of them
-                 * @default expected
+                 * @description What ranks the routes and guides their search: expected, the mean cost over the draws of the ground, or cvar, the mean of the dearest of them. Left out: expected
                  * @enum {unknown}
                  */
-                by: "expected" | "cvar";
-                /**
-                 * @description Share of the draws, the dearest, whose mean cost cvar_cost is [1]
-                 * @default 0.1
-                 */
-                tail: number;
+                by?: "expected" | "cvar";
+                /** @description Share of the draws, the dearest, whose mean cost cvar_cost is [1]. Left out: 0.1 */
+                tail?: number;
             };
-            /**
-             * @description How many different routes are wanted
-             * @default 3
-             */
-            routes: number;
-            /**
-             * @description How many of the best-ranked routes are also driven at the dynamic level. One that it refutes is no_go and ranked anew
-             * @default 0
-             */
-            verify: number;
+            /** @description How many different routes are wanted. Left out: 3 */
+            routes?: number;
+            /** @description How many of the best-ranked routes are also driven at the dynamic level. One that it refutes is no_go and ranked anew. Left out: 0 */
+            verify?: number;
             /** @description Empty: the default set */
             planners?: string[];
             limits?: components["schemas"]["DriveLimits"];
@@ -948,11 +938,8 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description Wheels whose drive has failed, by the wheel's name in GET /v1/rovers. locked: it does not turn; free: uncoupled, it turns as the ground turns it; off: its motor has no power, the ground turns gear and motor too */
             failed_wheels?: {
@@ -974,11 +961,8 @@ export interface components {
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
             unknown_soil?: string;
-            /**
-             * @description The same request with the same seed has the same answer, byte by byte
-             * @default 1
-             */
-            seed: number;
+            /** @description The same request with the same seed has the same answer, byte by byte. Left out: 1 */
+            seed?: number;
             /** @description Commanded speed; the rover's cruise speed when absent, at most what its motors turn [m/s] */
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
@@ -1016,11 +1000,8 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description Wheels whose drive has failed, by the wheel's name in GET /v1/rovers. locked: it does not turn; free: uncoupled, it turns as the ground turns it; off: its motor has no power, the ground turns gear and motor too */
             failed_wheels?: {
@@ -1042,11 +1023,8 @@ export interface components {
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
             unknown_soil?: string;
-            /**
-             * @description The same request with the same seed has the same answer, byte by byte
-             * @default 1
-             */
-            seed: number;
+            /** @description The same request with the same seed has the same answer, byte by byte. Left out: 1 */
+            seed?: number;
             /** @description Commanded speed; the rover's cruise speed when absent, at most what its motors turn [m/s] */
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
@@ -1058,22 +1036,15 @@ export interface components {
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
             };
+            /** @description Drive the whole path backwards. Left out: false */
+            backwards?: boolean;
+            /** @description Direction of travel from the body's axis, positive to the left [deg]. Left out: 0.0 */
+            crab_deg?: number;
             /**
-             * @description Drive the whole path backwards
-             * @default false
-             */
-            backwards: boolean;
-            /**
-             * @description Direction of travel from the body's axis, positive to the left [deg]
-             * @default 0
-             */
-            crab_deg: number;
-            /**
-             * @description dynamic: the path is also driven at the dynamic level
-             * @default quasi_static
+             * @description dynamic: the path is also driven at the dynamic level. Left out: quasi_static
              * @enum {unknown}
              */
-            rung: "quasi_static" | "dynamic";
+            rung?: "quasi_static" | "dynamic";
         };
         WheelSweepRequest: {
             /** @description Whose wheel and drive motor it is */
@@ -1092,64 +1063,43 @@ export interface components {
                 /** @description Around the rim */
                 count: number;
             };
-            /**
-             * @description Of the place
-             * @default 3.71
-             */
-            gravity_m_s2: number;
+            /** @description Of the place. Left out: 3.71 */
+            gravity_m_s2?: number;
             /** @description That the wheel carries; where neither load nor sinkage is given, an equal share of the rover's weight under gravity_m_s2 */
             load_n?: number;
             /** @description Held at this depth instead; at most 0.83 of the radius: the axle */
             sinkage_m?: number;
+            /** @description -1 locked, 0 free, 1 spinning on the spot. Left out: 0 */
+            slip?: number;
+            /** @description From the wheel's plane to its travel, positive to the left; 90 only with slip_definition travel. Left out: 0 */
+            slip_angle_deg?: number;
             /**
-             * @description -1 locked, 0 free, 1 spinning on the spot
-             * @default 0
-             */
-            slip: number;
-            /**
-             * @description From the wheel's plane to its travel, positive to the left; 90 only with slip_definition travel
-             * @default 0
-             */
-            slip_angle_deg: number;
-            /**
-             * @description What slip compares the rim's speed with: the speed along the wheel's plane, or the speed of travel in whatever direction, as many rigs report it
-             * @default forward
+             * @description What slip compares the rim's speed with: the speed along the wheel's plane, or the speed of travel in whatever direction, as many rigs report it. Left out: forward
              * @enum {string}
              */
-            slip_definition: "forward" | "travel";
+            slip_definition?: "forward" | "travel";
             /**
-             * @description Where the rim's speed in a slip is taken: at the rim, where the soil is sheared, or at the tips of the cleats
-             * @default rim
+             * @description Where the rim's speed in a slip is taken: at the rim, where the soil is sheared, or at the tips of the cleats. Left out: rim
              * @enum {string}
              */
-            slip_radius: "rim" | "shear" | "tip";
+            slip_radius?: "rim" | "shear" | "tip";
             /** @description In the place of slip: the wheel climbs this slope straight on under the weight load_n, at the slip at which its pull is the weight's part along the slope */
             slope_deg?: number;
-            /**
-             * @description The whole rover on the slope in the place of one wheel: each wheel carries what the rover's lean gives it, and the slip is the rover's. Then what is of a single wheel (load, slip, wheel, radius, ...) is refused
-             * @default false
-             */
-            whole_rover: boolean;
-            /**
-             * @description Row i of the answer stands at every axis' value i of the sweep, whose axes (at most 12; otherwise at most 2) then have as many values each
-             * @default false
-             */
-            paired: boolean;
+            /** @description The whole rover on the slope in the place of one wheel: each wheel carries what the rover's lean gives it, and the slip is the rover's. Then what is of a single wheel (load, slip, wheel, radius, ...) is refused. Left out: false */
+            whole_rover?: boolean;
+            /** @description Row i of the answer stands at every axis' value i of the sweep, whose axes (at most 12; otherwise at most 2) then have as many values each. Left out: false */
+            paired?: boolean;
             /** @description That is held; the rover's cruise speed where absent */
             speed_m_s?: number;
             /**
-             * @description Which speed is held
-             * @default rim
+             * @description Which speed is held. Left out: rim
              * @enum {string}
              */
-            speed_of: "rim" | "travel";
+            speed_of?: "rim" | "travel";
             /** @description For the effect motor_temperature; the motor's reference where absent */
             motor_temp_c?: number;
-            /**
-             * @description Of an earlier wheel: the effect multipass is at work
-             * @default false
-             */
-            in_a_track: boolean;
+            /** @description Of an earlier wheel: the effect multipass is at work. Left out: false */
+            in_a_track?: boolean;
             effects?: {
                 /** @description Of GET /v1/effects */
                 name: string;
@@ -1157,11 +1107,8 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description At most 2, the first varies slowest; at most 12 where paired. Parameters: the conditions above by their names, soil.n, soil.k_s, soil.cohesion_pa and other soil parameters, wheel.radius_m, wheel.width_m, effects.NAME.PARAMETER; an unknown one is refused with the whole list */
             sweep?: ({
@@ -2005,22 +1952,16 @@ export interface components {
             reference?: string;
             /** @description Effects that are not looked for */
             without?: string[];
-            /**
-             * @description The same seed gives the same answer
-             * @default 1
-             */
-            seed: number;
+            /** @description The same seed gives the same answer. Left out: 1 */
+            seed?: number;
         };
         WatchRequest: {
             /** @description Recorded drives that the service ships or was sent, to be watched in their order, in the place of drives. Not together with continues */
             campaign?: string;
             /** @description Drives that the service ships or was sent and that are taken as healthy; the new drives are of its rover, on its terrains and soils, measured as its were. Where it is left out, which only a watch of a campaign may, the campaign's first drives are. Not together with continues */
             reference?: string;
-            /**
-             * @description How many first drives of the campaign are taken as healthy, where no reference is given; fewer than it has
-             * @default 12
-             */
-            learn: number;
+            /** @description How many first drives of the campaign are taken as healthy, where no reference is given; fewer than it has. Left out: 12 */
+            learn?: number;
             /** @description An earlier watch job, not of a campaign, of which these are the next drives; then there is no other key but drives */
             continues?: string;
             /** @description In the order in which they were driven */
@@ -2044,31 +1985,19 @@ export interface components {
                 };
                 /** @description Another drive of the watch that this one repeats */
                 repeat_of?: string;
-                /**
-                 * @description Only the first and the last row were measured
-                 * @default false
-                 */
-                final_only: boolean;
+                /** @description Only the first and the last row were measured. Left out: false */
+                final_only?: boolean;
                 /** @description The drive's rows as the file of a "drive-campaign/1" has them */
                 csv: string;
             }[];
-            /**
-             * @description [1] Probability of an alarm while nothing changes, however long one watches
-             * @default 0.01
-             */
-            alpha: number;
-            /**
-             * @description Whether an alarm is followed by a diagnosis of the drives since the change
-             * @default true
-             */
-            diagnose: boolean;
+            /** @description [1] Probability of an alarm while nothing changes, however long one watches. Left out: 0.01 */
+            alpha?: number;
+            /** @description Whether an alarm is followed by a diagnosis of the drives since the change. Left out: true */
+            diagnose?: boolean;
             /** @description Effects that are not looked for */
             without?: string[];
-            /**
-             * @description The same seed gives the same answer
-             * @default 1
-             */
-            seed: number;
+            /** @description The same seed gives the same answer. Left out: 1 */
+            seed?: number;
         } & (unknown | unknown);
         Diagnosis: {
             /** @constant */
@@ -2822,11 +2751,8 @@ export interface components {
         SoilEstimateRequest: {
             /** @description Drives that the service ships; then there are no tests */
             campaign?: string;
-            /**
-             * @description That the search starts from and that priors lie around; of drives their own are read
-             * @default unknown_ground
-             */
-            soil: string;
+            /** @description That the search starts from and that priors lie around; of drives their own are read. Left out: unknown_ground */
+            soil?: string;
             /** @description Soils that tests name and that start from another soil of the catalogue */
             soils?: {
                 name: string;
@@ -2862,39 +2788,28 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description What stands at another value than the soil's, or starts there where it is free: names of `free`, as {"c1": 0.4, "n@wet": 1.1}; angles in degrees. What is set is taken as known in a verdict */
             set?: {
                 [key: string]: number;
             };
             motor_temp_c?: number;
+            /** @description Read by effects and grousers alone. Left out: 3.71 */
+            gravity_m_s2?: number;
+            /** @description Of the rim, for the motor. Left out: 0.04 */
+            speed_m_s?: number;
             /**
-             * @description Read by effects and grousers alone
-             * @default 3.71
-             */
-            gravity_m_s2: number;
-            /**
-             * @description Of the rim, for the motor
-             * @default 0.04
-             */
-            speed_m_s: number;
-            /**
-             * @description What slip compares the rim's speed with
-             * @default forward
+             * @description What slip compares the rim's speed with. Left out: forward
              * @enum {unknown}
              */
-            slip_definition: "forward" | "travel";
+            slip_definition?: "forward" | "travel";
             /**
-             * @description Where the rim's speed in a slip is taken
-             * @default rim
+             * @description Where the rim's speed in a slip is taken. Left out: rim
              * @enum {unknown}
              */
-            slip_radius: "rim" | "shear" | "tip";
+            slip_radius?: "rim" | "shear" | "tip";
             wheel_tests?: {
                 load_n: number;
                 slip_ratio: number;
@@ -2936,33 +2851,20 @@ export interface components {
                 highest: number;
             }[];
             /**
-             * @description Around the soil: what soils of all kinds have (wide), its own spread (soil)
-             * @default wide
+             * @description Around the soil: what soils of all kinds have (wide), its own spread (soil). Left out: wide
              * @enum {unknown}
              */
-            prior: "none" | "wide" | "soil";
-            /**
-             * @default none
-             * @enum {unknown}
-             */
-            loss: "none" | "huber" | "cauchy";
+            prior?: "none" | "wide" | "soil";
+            /** @enum {unknown} */
+            loss?: "none" | "huber" | "cauchy";
             /** @description In deviations, where outliers begin */
             loss_scale?: number;
-            /**
-             * @description Of readings without a deviation of their own, as a share
-             * @default 0.02
-             */
-            noise: number;
-            /**
-             * @description Intervals by profile likelihood; otherwise from the covariance
-             * @default true
-             */
-            profile: boolean;
-            /**
-             * @description The same seed gives the same answer
-             * @default 1
-             */
-            seed: number;
+            /** @description Of readings without a deviation of their own, as a share. Left out: 0.02 */
+            noise?: number;
+            /** @description Intervals by profile likelihood; otherwise from the covariance. Left out: true */
+            profile?: boolean;
+            /** @description The same seed gives the same answer. Left out: 1 */
+            seed?: number;
         };
         SoilEstimate: {
             /** @constant */
@@ -3085,47 +2987,26 @@ export interface components {
         RuleName: "slip_check" | "tilt" | "pitch" | "roll" | "suspension" | "current" | "sinkage" | "clearance" | "side_slip" | "aside" | "drive_time" | "energy" | "stance" | "immobilised" | "embedding";
         /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. Of a drive in segments, time and energy begin anew on each */
         DriveLimits: {
-            /**
-             * @description Largest slip of the rover over a stretch between checks [1]
-             * @default 0.4
-             */
-            max_slip: number;
-            /**
-             * @description Largest tilt of the body [deg]
-             * @default 25
-             */
-            max_tilt_deg: number;
+            /** @description Largest slip of the rover over a stretch between checks [1]. Left out: 0.4 */
+            max_slip?: number;
+            /** @description Largest tilt of the body [deg]. Left out: 25 */
+            max_tilt_deg?: number;
             /** @description Largest pitch of the body, up or down [deg]; left out: none */
             max_pitch_deg?: number;
             /** @description Largest roll of the body, left or right [deg]; left out: none */
             max_roll_deg?: number;
             /** @description Largest angle of any rocker or bogie [deg]; left out: none */
             max_suspension_deg?: number;
-            /**
-             * @description Largest current of any wheel's motor [A]
-             * @default 10
-             */
-            max_current_a: number;
-            /**
-             * @description Largest sinkage of any wheel [m]
-             * @default 0.08
-             */
-            max_sinkage_m: number;
-            /**
-             * @description Least height of the belly above the ground [m]
-             * @default 0
-             */
-            min_clearance_m: number;
-            /**
-             * @description Largest angle between where the rover goes and where it should, over a stretch between checks of the slip [deg]
-             * @default 12
-             */
-            max_side_slip_deg: number;
-            /**
-             * @description Largest way to the side between two checks of the slip [m]
-             * @default 2
-             */
-            max_aside_m: number;
+            /** @description Largest current of any wheel's motor [A]. Left out: 10.0 */
+            max_current_a?: number;
+            /** @description Largest sinkage of any wheel [m]. Left out: 0.08 */
+            max_sinkage_m?: number;
+            /** @description Least height of the belly above the ground [m]. Left out: 0.0 */
+            min_clearance_m?: number;
+            /** @description Largest angle between where the rover goes and where it should, over a stretch between checks of the slip [deg]. Left out: 12 */
+            max_side_slip_deg?: number;
+            /** @description Largest way to the side between two checks of the slip [m]. Left out: 2 */
+            max_aside_m?: number;
             /** @description Longest driving time of a sol [h]; left out: none */
             max_drive_h?: number;
             /** @description Most energy of the drive motors in a sol [Wh]; left out: none */
@@ -3133,49 +3014,25 @@ export interface components {
         };
         /** @description How the rover watches itself on the way */
         DriveChecks: {
-            /**
-             * @description Way that the wheels roll between two checks of the slip [m]
-             * @default 5
-             */
-            slip_check_every_m: number;
-            /**
-             * @description Over this slip the wheels dig rather than drive [1]
-             * @default 0.9
-             */
-            embedding_slip: number;
-            /**
-             * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
-             * @default 10
-             */
-            embedding_turns: number;
-            /**
-             * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
-             * @default 0.75
-             */
-            embedding_sinkage_share: number;
+            /** @description Way that the wheels roll between two checks of the slip [m]. Left out: 5.0 */
+            slip_check_every_m?: number;
+            /** @description Over this slip the wheels dig rather than drive [1]. Left out: 0.9 */
+            embedding_slip?: number;
+            /** @description Turns of the wheels at such a slip, without a check between them, that embed the rover. Left out: 10.0 */
+            embedding_turns?: number;
+            /** @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover. Left out: 0.75 */
+            embedding_sinkage_share?: number;
         };
         /** @description What decides between GO, NO-GO and UNKNOWN */
         DriveBars: {
-            /**
-             * @description Probability that any rule halts the drive before its end: a GO needs the upper end of its 90 % interval below this
-             * @default 0.2
-             */
-            max_stop: number;
-            /**
-             * @description The same: a NO-GO has the lower end of its 90 % interval above this, which is at least max_stop
-             * @default 0.5
-             */
-            no_go_stop: number;
-            /**
-             * @description Probability that the first halt is where the ground holds the rover: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it
-             * @default 0.01
-             */
-            max_immobilised: number;
-            /**
-             * @description Probability that the wheels dig in before a check halts the drive: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it
-             * @default 0.01
-             */
-            max_embedding: number;
+            /** @description Probability that any rule halts the drive before its end: a GO needs the upper end of its 90 % interval below this. Left out: 0.2 */
+            max_stop?: number;
+            /** @description The same: a NO-GO has the lower end of its 90 % interval above this, which is at least max_stop. Left out: 0.5 */
+            no_go_stop?: number;
+            /** @description Probability that the first halt is where the ground holds the rover: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it. Left out: 0.01 */
+            max_immobilised?: number;
+            /** @description Probability that the wheels dig in before a check halts the drive: a GO needs the upper end of its 90 % interval below this, a NO-GO has the lower end above it. Left out: 0.01 */
+            max_embedding?: number;
         };
         /** @description What the draws say of a rule that has a limit */
         RuleRisk: {
@@ -3368,11 +3225,8 @@ export interface components {
             commands?: components["schemas"]["DriveCommand"][];
             /** @description Instead of path, start and commands: the job of a plan, of whose route the commands are checked. Terrain, rover and all that the plan assumes of a drive are the plan's; other members of the request stand over these */
             plan?: string;
-            /**
-             * @description With plan: which of its routes, by rank
-             * @default 1
-             */
-            route: number;
+            /** @description With plan: which of its routes, by rank. Left out: 1 */
+            route?: number;
             /** @description A set of rules of the service's data (every_5_m, slip_70): its limits, checks and bars, before those of the request */
             rules?: string;
             /** @description Polygons as rings of [x_m, y_m] in map metres; closed implicitly. A drive that enters one is a no_go */
@@ -3395,11 +3249,8 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description Wheels whose drive has failed, by the wheel's name in GET /v1/rovers. locked: it does not turn; free: uncoupled, it turns as the ground turns it; off: its motor has no power, the ground turns gear and motor too */
             failed_wheels?: {
@@ -3421,11 +3272,8 @@ export interface components {
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
             unknown_soil?: string;
-            /**
-             * @description The same request with the same seed has the same answer, byte by byte
-             * @default 1
-             */
-            seed: number;
+            /** @description The same request with the same seed has the same answer, byte by byte. Left out: 1 */
+            seed?: number;
             /** @description Commanded speed; the rover's cruise speed when absent, at most what its motors turn [m/s] */
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
@@ -3437,16 +3285,10 @@ export interface components {
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
             };
-            /**
-             * @description Drive the whole path backwards
-             * @default false
-             */
-            backwards: boolean;
-            /**
-             * @description Direction of travel from the body's axis, positive to the left [deg]
-             * @default 0
-             */
-            crab_deg: number;
+            /** @description Drive the whole path backwards. Left out: false */
+            backwards?: boolean;
+            /** @description Direction of travel from the body's axis, positive to the left [deg]. Left out: 0.0 */
+            crab_deg?: number;
         };
         Check: {
             /** @constant */
@@ -3491,16 +3333,10 @@ export interface components {
         };
         /** @description The telemetry of a drive under way. The draws of the ground are weighed by how well each goes with the slip (odometry against positions) and the currents of its stretches */
         DriveSoFar: {
-            /**
-             * @description Standard deviation of a position along the track [m]
-             * @default 0.05
-             */
-            position_noise_m: number;
-            /**
-             * @description Standard deviation of a motor's current [A]
-             * @default 0.1
-             */
-            current_noise_a: number;
+            /** @description Standard deviation of a position along the track [m]. Left out: 0.05 */
+            position_noise_m?: number;
+            /** @description Standard deviation of a motor's current [A]. Left out: 0.1 */
+            current_noise_a?: number;
             /** @description In driving order; between two positions the way is taken to be straight */
             rows: {
                 /** @description Not before that of the row before [s] */
@@ -3591,7 +3427,9 @@ export interface components {
             /** @description Name of a campaign that was sent, to which the drives are appended */
             follows?: string;
             /** @description With "follows": drives as campaign.json has them, with the rows as "csv" in the place of "file" */
-            drives?: Record<string, never>[];
+            drives?: {
+                [key: string]: unknown;
+            }[];
         } & (unknown | unknown);
         TerrainRequest: {
             /** @description That requests will ask for */
@@ -3604,17 +3442,13 @@ export interface components {
             legend?: string;
             /** @description Stands for the map's own system: a PROJ string, WKT, or a code */
             crs?: string;
+            /** @description Of the polygons: which property is the label. Left out: unit */
+            property?: string;
             /**
-             * @description Of the polygons: which property is the label
-             * @default unit
-             */
-            property: string;
-            /**
-             * @description What the polygons' coordinates are
-             * @default lonlat
+             * @description What the polygons' coordinates are. Left out: lonlat
              * @enum {string}
              */
-            soil_coordinates: "lonlat" | "map";
+            soil_coordinates?: "lonlat" | "map";
             /** @description Why these classes are believed to be these soils */
             assumption?: string;
             title?: string;
@@ -3622,11 +3456,8 @@ export interface components {
             source?: string;
             /** @description Else that of Mars, the Moon or the Earth */
             gravity_m_s2?: number;
-            /**
-             * @description Mend what can be mended without a guess
-             * @default false
-             */
-            fix: boolean;
+            /** @description Mend what can be mended without a guess. Left out: false */
+            fix?: boolean;
         };
         TerrainImport: {
             /** @constant */
@@ -3797,11 +3628,8 @@ export interface components {
             kind: "slip_best" | "slip_worst" | "slip" | "stop_risk" | "embedding_risk" | "verdict" | "belief" | "unknown" | "cost_to_go" | "reachable";
             /** @description Direction of travel, counter-clockwise from east; of slip, which needs it, and of risks and the verdict, which are of the worst heading without it [deg] */
             heading_deg?: number;
-            /**
-             * @description Length of the drive that risks and the verdict are of [m]
-             * @default 10
-             */
-            distance_m: number;
+            /** @description Length of the drive that risks and the verdict are of [m]. Left out: 10 */
+            distance_m?: number;
             /** @description Map metres; the whole terrain where it is left out. The map has at most 4,194,304 cells */
             extent?: {
                 west_m: number;
@@ -3810,11 +3638,10 @@ export interface components {
                 north_m: number;
             };
             /**
-             * @description What slip and risk are where no map names the soil: nothing, or by the belief about unknown ground, slip on its weak soil
-             * @default nodata
+             * @description What slip and risk are where no map names the soil: nothing, or by the belief about unknown ground, slip on its weak soil. Left out: nodata
              * @enum {unknown}
              */
-            unknown_ground: "nodata" | "belief";
+            unknown_ground?: "nodata" | "belief";
             to?: components["schemas"]["Waypoint"];
             from?: components["schemas"]["Waypoint"];
             /** @description Of reachable: what may be used up */
@@ -3824,8 +3651,7 @@ export interface components {
                 /** @description A stop costs the rest of its sol */
                 sols?: number;
             };
-            /** @default 4 */
-            driving_hours_per_sol: number;
+            driving_hours_per_sol?: number;
             /** @description Weights of the cost terms; keys, units, ranges and initial values are the cost_terms of GET /v1/planners */
             weights?: {
                 [key: string]: number;
@@ -3850,11 +3676,8 @@ export interface components {
                 parameters?: {
                     [key: string]: number;
                 };
-                /**
-                 * @description false takes out an effect that the rover's file has
-                 * @default true
-                 */
-                on: boolean;
+                /** @description false takes out an effect that the rover's file has. Left out: true */
+                on?: boolean;
             }[];
             /** @description Wheels whose drive has failed, by the wheel's name in GET /v1/rovers. locked: it does not turn; free: uncoupled, it turns as the ground turns it; off: its motor has no power, the ground turns gear and motor too */
             failed_wheels?: {
@@ -3868,11 +3691,8 @@ export interface components {
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
             unknown_soil?: string;
-            /**
-             * @description The same request with the same seed has the same answer, byte by byte
-             * @default 1
-             */
-            seed: number;
+            /** @description The same request with the same seed has the same answer, byte by byte. Left out: 1 */
+            seed?: number;
             /** @description Commanded speed; the rover's cruise speed when absent, at most what its motors turn [m/s] */
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
@@ -3939,11 +3759,8 @@ export interface components {
                 /** @description Soils of this campaign that are the model's, where the diagnosed one called them otherwise */
                 ground?: string[];
             };
-            /**
-             * @description Of the resampling of drives
-             * @default 1
-             */
-            seed: number;
+            /** @description Of the resampling of drives. Left out: 1 */
+            seed?: number;
         };
         ModelCheck: {
             /** @constant */
@@ -4051,8 +3868,7 @@ export interface components {
             arc_m?: number;
             radius_m?: number;
             turn_deg?: number;
-            /** @default 1 */
-            repeat: number;
+            repeat?: number;
         };
     };
     responses: never;
@@ -4098,6 +3914,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4169,6 +3994,15 @@ export interface operations {
                     "text/plain": string;
                 };
             };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4206,6 +4040,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4245,6 +4088,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4282,6 +4134,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4800,6 +4661,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4837,6 +4707,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4876,6 +4755,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4913,6 +4801,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -4952,6 +4849,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description A query parameter that is not known */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Any other refusal: see /errors */
             default: {
                 headers: {
@@ -4989,6 +4895,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {
@@ -5203,6 +5118,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The service asks for a token, and this is none of its own */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {

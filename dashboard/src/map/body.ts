@@ -53,3 +53,11 @@ export function bodyOf(terrain: Terrain): Body {
     fromDegrees: (longitude, latitude) => (converter ? (converter.forward([longitude, latitude]) as [number, number]) : null),
   };
 }
+
+const degreesText = (value: number, positive: string, negative: string): string => `${Math.abs(value).toFixed(5)}° ${value < 0 ? negative : positive}`;
+
+/** "137.37012° E, 4.66780° S"; nothing where the map has no place on its body. */
+export function placeInDegrees({ x_m, y_m }: { x_m: number; y_m: number }, body: Body | null): string {
+  const degrees = body?.degrees(x_m, y_m);
+  return degrees ? `${degreesText(degrees[0], "E", "W")}, ${degreesText(degrees[1], "N", "S")}` : "";
+}

@@ -9,6 +9,7 @@ import Modify from "ol/interaction/Modify.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
+import { planSoon } from "../live";
 import { firstTool, store, type Place, type Ring, type State, type Tool } from "../state";
 
 const mark = (text: string, colour: string): Style =>
@@ -35,14 +36,48 @@ export class DrawnLayer {
   readonly layer = new VectorLayer({ source: this.source, zIndex: 30 });
   private drawing: Draw | null = null;
   private corners: number[][] = []; // that the keyboard has placed
+  dragged = false;
+  private frame = 0;
+  private placed = ""; // start, goal and way points when the drag began
 
   constructor(private readonly map: OlMap) {
-    const modify = new Modify({ source: this.source, style: styles.held, insertVertexCondition: (event) => event.originalEvent.shiftKey });
-    modify.on("modifyend", () => this.takeOver());
+    const finger = matchMedia("(pointer: coarse)").matches;
+    const modify = new Modify({ source: this.source, style: styles.held, pixelTolerance: finger ? 24 : 12, insertVertexCondition: (event) => event.originalEvent.shiftKey });
+    modify.on("modifystart", (event) => {
+      store.remember();
+      this.dragged = true;
+      event.features.forEach((feature) => feature.getGeometry()?.on("change", this.moved));
+    });
+    modify.on("modifyend", (event) => {
+      event.features.forEach((feature) => feature.getGeometry()?.un("change", this.moved));
+      cancelAnimationFrame(this.frame);
+      this.takeOver();
+      this.planAfterDrag(true);
+      this.dragged = false;
+      this.draw(store.state);
+    });
     map.addInteraction(modify);
   }
 
+  /** At most once a frame: the pointer moves faster. */
+  private readonly moved = (): void => {
+    cancelAnimationFrame(this.frame);
+    this.frame = requestAnimationFrame(() => {
+      this.takeOver();
+      this.planAfterDrag(false);
+    });
+  };
+
+  /** A plan follows its places; zones and paths wait to be asked about. */
+  private planAfterDrag(end: boolean): void {
+    const { drawn, tab } = store.state;
+    if (tab === "plan" && JSON.stringify([drawn.start, drawn.goal, drawn.waypoints]) !== this.placed) planSoon(end);
+  }
+
   draw(state: State): void {
+    // What is being dragged is drawn by the drag.
+    if (this.dragged) return;
+    this.placed = JSON.stringify([state.drawn.start, state.drawn.goal, state.drawn.waypoints]);
     this.source.clear();
     const add = (kind: string, index: number, geometry: Point | Polygon | LineString, style: Style | Style[]) => {
       const feature = new Feature({ geometry, kind, index });
@@ -75,7 +110,7 @@ export class DrawnLayer {
     const onCheck = store.state.tab === "check";
     // A line that is dragged moves its corners; a corner that is dragged moves its line.
     const line = of("path")[0]?.getGeometry() as LineString | undefined;
-    store.draw({
+    store.move({
       keep_out: rings("keep_out"),
       keep_in: rings("keep_in"),
       ...(onCheck
@@ -131,5 +166,6 @@ export function putAt(tool: Tool, at: number[]): boolean {
   else return false;
   // One start and one goal: the next click is for the other where that is missing.
   if (tool === "start" || tool === "goal") store.set({ tool: firstTool(store.state) });
+  if (tool !== "corner") planSoon(true);
   return true;
 }

@@ -2,6 +2,7 @@
 import { get, type Ground } from "../api/client";
 import { number, share, words } from "../format";
 import { store } from "../state";
+import { placeInDegrees } from "./body";
 import { riskTitles, valueAt } from "./risk_map";
 import type { RiskMap } from "./risk_types";
 import type { TerrainMap } from "./terrain_map";
@@ -23,8 +24,8 @@ export function readout(target: HTMLElement, map: TerrainMap, at: number[] | nul
     return;
   }
   const risks = store.state.risk.map((m) => riskText(m, x, y)).join("");
-  const degrees = map.body?.degrees(x, y);
-  const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees ? ` · ${degreesText(degrees[0], "E", "W")}, ${degreesText(degrees[1], "N", "S")}` : ""}`;
+  const degrees = placeInDegrees({ x_m: x, y_m: y }, map.body);
+  const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees && ` · ${degrees}`}`;
   target.textContent = place + risks;
   const name = store.state.terrain?.terrain?.name;
   if (!name || document.hidden || !map.isTerrain) return;
@@ -39,8 +40,6 @@ export function readout(target: HTMLElement, map: TerrainMap, at: number[] | nul
       });
   }, 250);
 }
-
-const degreesText = (value: number, positive: string, negative: string): string => `${Math.abs(value).toFixed(5)}° ${value < 0 ? negative : positive}`;
 
 function riskText(map: RiskMap, x_m: number, y_m: number): string {
   const value = valueAt(map, x_m, y_m);

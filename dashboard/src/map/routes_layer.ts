@@ -5,8 +5,10 @@ import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { classesOf, stationAt, surprises, type DrivenStretch, type Route } from "../result";
+import { limitClasses, shareColours } from "../limits";
+import { classesOf, roverOf, stationAt, surprises, verdictColours, type DrivenStretch, type Route } from "../result";
 import type { State } from "../state";
+import { poseAt, roverStyles } from "./rover_mark";
 import { TripLabels } from "./trip_labels";
 
 export class RoutesLayer {
@@ -18,7 +20,7 @@ export class RoutesLayer {
   readonly markerLayer = new VectorLayer({
     source: this.markers,
     zIndex: 40,
-    style: new Style({ image: new Circle({ radius: 8, fill: new Fill({ color: "#ffffffcc" }), stroke: new Stroke({ color: "#000", width: 3 }) }) }),
+    updateWhileInteracting: true,
   });
 
   draw(state: State): void {
@@ -38,8 +40,9 @@ export class RoutesLayer {
     });
     state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#8a2c6b", 4, [9, 6])));
     const chosen = routes[state.route];
-    this.labels.draw(chosen, marks);
-    if (state.job?.state === "running" && state.job.best_so_far?.line) this.source.addFeature(styled(state.job.best_so_far.line as number[][], [stroke("#fff", 6), stroke("#111", 3, [2, 7], 1)]));
+    this.labels.draw(state.stale === "all" ? undefined : chosen, marks);
+    const best = state.job?.state === "running" ? state.job.best_so_far : undefined;
+    if (best?.line) this.source.addFeature(styled(best.line, [stroke("#fff", 8, undefined, 8), stroke(best.verdict ? verdictColours[best.verdict] : "#111", 5, [2, 7], 9)]));
     for (const stretch of state.result?.driven ?? []) this.source.addFeature(residual(stretch));
     this.point(state);
   }
@@ -47,12 +50,14 @@ export class RoutesLayer {
   /** Marks the place along the chosen route that the charts' cursor is at. */
   point(state: State): void {
     const route = state.result?.routes[state.route];
-    if (!route || state.hover_m === null) {
+    if (!route || state.hover_m === null || state.stale === "all") {
       this.marker.setGeometry(undefined);
       return;
     }
-    const i = stationAt(route.stations, state.hover_m);
-    this.marker.setGeometry(new Point([route.stations.x_m[i]!, route.stations.y_m[i]!]));
+    const pose = poseAt(route.stations, stationAt(route.stations, state.hover_m));
+    const rover = roverOf(state.result!, state.rovers);
+    this.marker.setStyle((_, resolution) => roverStyles(rover, pose, resolution));
+    this.marker.setGeometry(new Point([pose.x_m, pose.y_m]));
   }
 }
 
@@ -78,8 +83,11 @@ function plain(route: Route, colour: string, width: number, dash?: number[]): Fe
 function lines(route: Route, state: State, strong: boolean): Feature[] {
   const width = strong ? 6 : 3;
   const above = strong ? 4 : 0;
-  if (state.routeColour === "plain") return plain(route, strong ? "#0050a0" : "#555", width);
-  const classes = classesOf(route, state.routeColour, state.bounds[state.routeColour]);
+  // The answer to another question has no colours.
+  if (state.stale === "all") return plain(route, strong ? "#8a8a8a" : "#b5b5b5", width);
+  const by = state.routeColour;
+  if (by === "plain") return plain(route, strong ? "#0050a0" : "#555", width);
+  const classes = by === "limits" ? limitClasses(route, { ...state.result?.limits, ...state.options.limits }).map((k) => (k === null ? null : shareColours[k]!)) : classesOf(route, by, state.bounds[by]);
   const features = [styled(coordinates(route), stroke("#000000", width + 4, undefined, above)), styled(coordinates(route), stroke("#fff", width + 2.5, undefined, above + 1))];
   for (let from = 0; from + 1 < classes.length; ) {
     let to = from + 1;

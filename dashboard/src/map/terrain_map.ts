@@ -2,6 +2,7 @@
 import OlMap from "ol/Map.js";
 import View from "ol/View.js";
 import type BaseLayer from "ol/layer/Layer.js";
+import Overlay from "ol/Overlay.js";
 import Projection from "ol/proj/Projection.js";
 import { defaults as defaultControls } from "ol/control/defaults.js";
 import TileLayer from "ol/layer/Tile.js";
@@ -11,11 +12,14 @@ import TileGrid from "ol/tilegrid/TileGrid.js";
 import type ImageTile from "ol/ImageTile.js";
 import type RenderEvent from "ol/render/Event.js";
 import { address, ask, token, type TerrainDocument } from "../api/client";
+import { button, fill, h } from "../dom";
 import { stationAt } from "../result";
 import { store, type LayerName, type State } from "../state";
+import { whyAt } from "../why";
 import { bodyOf, type Body } from "./body";
 import { DrawnLayer, putAt } from "./drawn_layer";
 import { GapLayer } from "./gap_layer";
+import { clearOf } from "./margins";
 import { riskLayer, type RiskLayer } from "./risk_layer";
 import type { RiskKind, RiskMap } from "./risk_types";
 import { RoutesLayer } from "./routes_layer";
@@ -36,8 +40,11 @@ export class TerrainMap {
   private legend = "";
   body: Body | null = null;
   pointer: number[] | null = null;
+  private placed = -1; // time stamp of the click that placed something
+  private readonly whyBox = h("div", { class: "why", role: "status", "data-why": true });
+  private readonly why = new Overlay({ element: this.whyBox, autoPan: { margin: 8 }, offset: [0, -14], positioning: "bottom-center", stopEvent: true });
 
-  constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void) {
+  constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void, private readonly controls: () => HTMLElement[]) {
     this.map = new OlMap({
       target,
       controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleBar()]),
@@ -45,7 +52,15 @@ export class TerrainMap {
     });
     this.drawn = new DrawnLayer(this.map);
     this.map.addLayer(this.drawn.layer);
-    this.map.on("singleclick", (event) => this.clicked(event.coordinate, event.pixel));
+    // What a tool places is there at once; what a click looks at may still become a double click, which zooms.
+    this.map.on("click", (event) => {
+      this.placed = this.place(event.coordinate) ? event.originalEvent.timeStamp : -1;
+    });
+    this.map.on("singleclick", (event) => {
+      if (event.originalEvent.timeStamp !== this.placed) this.look(event.coordinate, event.pixel);
+    });
+    this.map.on("dblclick", () => this.placed < 0); // two places that follow fast zoom nothing
+    this.map.addOverlay(this.why);
     this.map.on("pointermove", (event) => {
       this.pointer = event.coordinate;
       this.told(event.coordinate);
@@ -75,7 +90,13 @@ export class TerrainMap {
       this.showGround(s);
       this.gap.draw(s);
     });
-    store.on(["result", "other", "route", "compared", "routeColour", "palette", "bounds", "job"], (s) => this.routes.draw(s));
+    store.on(["result", "other", "route", "compared", "routeColour", "palette", "bounds", "job", "stale", "rovers"], (s) => this.routes.draw(s));
+    let moved = store.state.options.limits;
+    store.on(["options"], (s) => {
+      if (s.options.limits !== moved && s.routeColour === "limits") this.routes.draw(s);
+      moved = s.options.limits;
+    });
+    store.on(["result", "route", "tab", "stale"], () => this.closeWhy());
     store.on(["hover_m"], (s) => this.routes.point(s));
     store.on(["drawn", "tab", "result"], (s) => this.drawn.draw(s));
     store.on(["tool"], (s) => {
@@ -243,21 +264,44 @@ export class TerrainMap {
     layer.on("postrender", (event: RenderEvent) => (event.context as CanvasRenderingContext2D).restore());
   }
 
-  private clicked(coordinate: number[], pixel: number[]): void {
-    if (this.isTerrain && store.state.tool !== "look" && !this.isOnMap(coordinate)) {
-      this.told(coordinate);
-      return;
-    }
-    if (this.isTerrain && putAt(store.state.tool, coordinate)) return;
+  private place(coordinate: number[]): boolean {
+    if (!this.isTerrain || store.state.tool === "look") return false;
+    if (this.isOnMap(coordinate)) return putAt(store.state.tool, coordinate);
+    this.told(coordinate);
+    return true;
+  }
+
+  private look(coordinate: number[], pixel: number[]): void {
     if (store.state.tool !== "look") return;
+    this.closeWhy();
     const window = this.windowAt(pixel);
     if (window !== undefined) {
       const drive = store.state.followed.diagnosis!.document.where.windows[window]!.drive;
       store.follow({ drive: store.state.followed.drive === drive ? "" : drive });
       return;
     }
-    const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
-    if (route !== undefined) store.set({ route });
+    // Route 0 would not end the search: it counts from 1 here.
+    const route = this.map.forEachFeatureAtPixel(pixel, (feature) => ((feature.get("route") as number | undefined) ?? -1) + 1, { hitTolerance: 10, layerFilter: (l) => l === this.routes.layer });
+    if (!route) return;
+    store.set({ route: route - 1 });
+    this.hover(coordinate);
+    this.tellWhy();
+  }
+
+  /** Says why the route has its colour where the cursor is. */
+  tellWhy(): void {
+    const { result, route: index, hover_m } = store.state;
+    const route = result?.routes[index];
+    if (!route || hover_m === null) return;
+    const { head, lines } = whyAt(route, hover_m, store.state);
+    const close = button("×", () => this.closeWhy(), { class: "quiet tiny", "aria-label": "Close" });
+    fill(this.whyBox, h("div", { class: "job-head" }, h("strong", {}, head), close), lines.map((line) => h("p", {}, line)));
+    const i = stationAt(route.stations, hover_m);
+    this.why.setPosition([route.stations.x_m[i]!, route.stations.y_m[i]!]);
+  }
+
+  closeWhy(): void {
+    this.why.setPosition(undefined);
   }
 
   isOnMap([x, y]: number[]): boolean {
@@ -268,7 +312,8 @@ export class TerrainMap {
   /** The window of a recorded drive that is there. */
   private windowAt(pixel: number[]): number | undefined {
     if (store.state.tab !== "drives" || !store.state.followed.diagnosis) return undefined;
-    return this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("window") as number | undefined, { hitTolerance: 4, layerFilter: (l) => l === this.gap.layer });
+    const window = this.map.forEachFeatureAtPixel(pixel, (feature) => ((feature.get("window") as number | undefined) ?? -1) + 1, { hitTolerance: 4, layerFilter: (l) => l === this.gap.layer });
+    return window ? window - 1 : undefined;
   }
 
   /** The place along the chosen route that the pointer is at. */
@@ -286,10 +331,10 @@ export class TerrainMap {
     store.set({ hover_m: nearest < 0 ? null : distance_m[nearest]! });
   }
 
-  /** Room around what is brought into sight; at the right lie the layers. */
+  /** Room around what is brought into sight, beside the controls. */
   private margins(px: number): number[] {
-    const wide = (this.map.getSize()?.[0] ?? 0) > 700;
-    return [px, wide ? px + 310 : px, px, px];
+    const target = this.map.getTargetElement();
+    return clearOf(target.getBoundingClientRect(), this.controls().map((control) => control.getBoundingClientRect()), px);
   }
 
   centre(): number[] | null {
@@ -313,12 +358,24 @@ export class TerrainMap {
     const last = Math.max(stationAt(route.stations, to_m), first);
     const xs = route.stations.x_m.slice(first, last + 1);
     const ys = route.stations.y_m.slice(first, last + 1);
-    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(40), duration: 200 });
+    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(28), duration: 200 });
+  }
+
+  /** Where the map has become smaller, or controls larger, the places of the plan come back into sight. */
+  keepInSight(): void {
+    const { start, goal, waypoints } = store.state.drawn;
+    const [top, right, bottom, left] = this.margins(14);
+    const [width, height] = this.map.getSize() ?? [0, 0];
+    const hidden = [start, goal, ...waypoints].some((place) => {
+      const pixel = place && this.map.getPixelFromCoordinate([place.x_m, place.y_m]);
+      return pixel && (pixel[0]! < left! || pixel[0]! > width! - right! || pixel[1]! < top! || pixel[1]! > height! - bottom!);
+    });
+    if (hidden && !this.drawn.dragged) this.showRoutes();
   }
 
   showRoutes(): void {
     const extent = this.routes.source.getExtent();
-    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(50) });
+    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(28) });
   }
 }
 

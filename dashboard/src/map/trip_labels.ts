@@ -4,7 +4,8 @@ import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { share, words } from "../format";
+import { share } from "../format";
+import { causeWords } from "../why";
 import { stationAt, tripsOf, type Route } from "../result";
 
 const character_px = 6.6;
@@ -37,13 +38,15 @@ export class TripLabels {
     const { x_m, y_m } = route.stations;
     const line = x_m.map((x, i) => [x, y_m[i]!]);
     const middle = (Math.min(...x_m) + Math.max(...x_m)) / 2;
-    for (const [k, texts] of labelled(route)) {
+    for (const [index, [k, texts]] of [...labelled(route)].entries()) {
       const at = line[k]!;
       const feature = new Feature(new Point(at));
       feature.setStyle((_, resolution) => {
         // Below a mark that is at the same place.
         const down = marks.some((m) => Math.hypot(m[0]! - at[0]!, m[1]! - at[1]!) < mark_px * resolution) ? below_px : 0;
-        const inwards = at[0]! > middle ? [sides[1]!, sides[0]!, ...sides.slice(2)] : sides;
+        // Neighbours go above and below by turns.
+        const [below, above] = index % 2 === 0 ? sides.slice(2) : sides.slice(2).reverse();
+        const inwards = at[0]! > middle ? [sides[1]!, sides[0]!, below!, above!] : [sides[0]!, sides[1]!, below!, above!];
         return style(texts, down, freest([at[0]!, at[1]! - down * resolution], texts, resolution, marks, line, inwards));
       });
       this.source.addFeature(feature);
@@ -59,7 +62,7 @@ function labelled(route: Route): Map<number, string[]> {
   for (const rule of tripsOf(route)) {
     const own = stationAt(route.stations, rule.from_m!);
     const k = [...at.keys()].find((other) => Math.abs(distance_m[other]! - distance_m[own]!) < near_m) ?? own;
-    at.set(k, [...(at.get(k) ?? []), `${rule.words} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
+    at.set(k, [...(at.get(k) ?? []), `${rule.words} ${share(rule.trips.value)}${rule.cause ? `, ${causeWords(rule.cause)}` : ""}`]);
   }
   return at;
 }

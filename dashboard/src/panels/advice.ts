@@ -4,8 +4,7 @@ import { sentence, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
 import { verdictWords, type Result, type Route } from "../result";
 import { store } from "../state";
-import { start } from "../work";
-import { planRequest } from "./request";
+import { planNow } from "../work";
 
 type Advice = Route["decision"]["advice"][number];
 
@@ -20,7 +19,7 @@ function act(result: Result, advice: Advice, show: (from_m: number, to_m: number
       if (result.kind !== "plan") return button("Show where", () => show(0, advice.at_m), { "data-do": "shorter" });
       return button("Make it the goal and plan again", () => {
         store.draw({ goal: { x_m: advice.x_m, y_m: advice.y_m }, waypoints: [] });
-        void start("v1/plans", planRequest());
+        planNow();
       }, { "data-do": "nearer-goal" });
     case "other_route":
       return button("Look at it", () => store.set({ route: advice.route - 1, compared: null }), { "data-do": "other-route" });

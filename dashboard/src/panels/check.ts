@@ -1,15 +1,16 @@
 // May this be commanded? A path or a command sequence, drawn, pasted or read from a file.
-import { asCurl } from "../api/client";
+import { asCurl, type CheckRequest } from "../api/client";
 import { button, field, fill, folded, h } from "../dom";
 import { readPlace } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
 import { problemView } from "../problem";
 import { store } from "../state";
 import { start } from "../work";
+import { examplesView } from "./examples";
 import { options } from "./options";
 import { readPathText, readTelemetry } from "./path_text";
 import { toolBar, zones } from "./plan";
-import { checkRequest, type Command } from "./request";
+import { checkRequest, type Command, type Telemetry } from "./request";
 
 export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const common = h("div");
@@ -17,15 +18,15 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const fault = h("div");
   const text = h("textarea", { rows: 6, oninput: () => peek(), onchange: () => void (text.value.trim() !== "" && read()), spellcheck: "false", placeholder: "8142579.7, -276648.7\n8142578, -276680\n\nor: drive=10 turn=30 arc=6,8" });
   const file = h("input", { type: "file", accept: ".csv,.json,.geojson,.txt", onchange: () => void take() });
-  const place = h("input", { placeholder: "x, y in metres", autocomplete: "off", id: "check-start" });
-  const heading = h("input", { type: "number", step: "any", value: 0, id: "check-yaw" });
+  const place = h("input", { placeholder: "x, y in metres, or degrees: 137.4 E, 4.7 S", autocomplete: "off", id: "check-start", onchange: () => tellTyped() });
+  const heading = h("input", { type: "number", step: "any", value: 0, id: "check-yaw", onchange: () => tellTyped() });
   const startFields = h("div", { class: "columns" }, field("Start of the commands", place), field("Heading, deg (left of east)", heading));
-  const telemetry = h("textarea", { rows: 5, spellcheck: "false", placeholder: "driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.4,8142638,-276640.3,6.1" });
+  const telemetry = h("textarea", { rows: 5, oninput: () => tellTyped(), spellcheck: "false", placeholder: "driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.4,8142638,-276640.3,6.1" });
   const telemetryFile = h("input", { type: "file", accept: ".csv", onchange: () => void telemetryFile.files?.[0]?.text().then((t) => (telemetry.value = t.slice(0, 1_000_000))) });
   const curl = h("details");
   const drawCurl = folded(curl, () => "The request as a command", () => [h("pre", { tabindex: 0 }, asCurl("v1/checks", request()))]);
   let commands: Command[] | null = null;
-  let soFar: Record<string, unknown>[] = [];
+  let soFar: Telemetry = [];
 
   async function take(): Promise<void> {
     const chosen = file.files?.[0];
@@ -44,6 +45,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
       // It is not whole yet.
     }
     startFields.hidden = commands === null;
+    tellTyped();
   }
 
   /** What is in the field becomes the path on the map, or the commands. */
@@ -53,6 +55,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
       const found = readPathText(text.value, map.body);
       commands = found.commands ?? null;
       store.draw({ path: found.path ?? [] });
+      tellTyped();
       show();
       return true;
     } catch (error) {
@@ -61,10 +64,15 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
     }
   }
 
-  function request(): Record<string, unknown> {
-    const from = readPlace(place.value) ?? store.state.drawn.start;
+  function request(): CheckRequest {
+    const from = readPlace(place.value, map.body) ?? store.state.drawn.start;
     const start = from ? { start: { ...from, yaw_deg: Number(heading.value) || 0 } } : {};
     return checkRequest({ commands: commands ? { ...start, list: commands } : null, soFar });
+  }
+
+  /** What the map does not show of the question. */
+  function tellTyped(): void {
+    store.set({ typed: [commands ? [text.value, place.value, heading.value] : [], telemetry.value].flat().join("\n").trim() });
   }
 
   function show(): void {
@@ -80,7 +88,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
       fill(fault, problemView((error as Error).message));
       return;
     }
-    if (commands && soFar.length === 0 && !(readPlace(place.value) ?? store.state.drawn.start)) {
+    if (commands && soFar.length === 0 && !(readPlace(place.value, map.body) ?? store.state.drawn.start)) {
       fill(fault, problemView("Commands need a start: type it, or set it on the map under Plan."));
       place.focus();
       return;
@@ -96,19 +104,22 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const corner = h("button", { type: "button", "data-tool": "corner", onclick: () => {
     commands = null;
     text.value = "";
+    tellTyped();
     store.set({ tool: store.state.tool === "corner" ? "look" : "corner" });
   } }, "Click corners");
   store.on(["tool"], ({ tool }) => corner.setAttribute("aria-pressed", String(tool === "corner")));
   fill(
     target,
+    examplesView(),
     common,
     h("h2", {}, "Path or commands"),
     h("div", { class: "row" }, corner, button("Remove the path", () => {
       commands = null;
       text.value = "";
+      tellTyped();
       store.draw({ path: [] });
     }, { class: "quiet" })),
-    field("Corners as CSV or GeoJSON, or commands", text, "A CSV has columns x_m and y_m. Commands are drive=METRES, turn=DEGREES, arc=METRES,RADIUS; left is positive."),
+    field("Corners as CSV or GeoJSON, or commands", text, ["A CSV has columns ", h("code", {}, "x_m"), " and ", h("code", {}, "y_m"), ". Commands are drive=METRES, turn=DEGREES, arc=METRES,RADIUS; left is positive."]),
     field("or a file", file),
     startFields,
     h("details", {}, h("summary", {}, "A drive under way"),

@@ -1,7 +1,7 @@
 // What recorded drives show that the simulator lacks: verdict, ladder, effects, where, and the way back to planning.
 import { address, token, type Diagnosis, type TerrainDocument } from "../api/client";
 import { button, field, fill, h, select, swatch } from "../dom";
-import { number, sentence, share, words } from "../format";
+import { number, roverWords, sentence, share, words } from "../format";
 import { gapLabels } from "../map/gap_layer";
 import { store, type Rung, type State } from "../state";
 import { keep } from "../work";
@@ -142,7 +142,7 @@ function replan(job: string, d: Diagnosis): HTMLElement {
     const may_choose = nominal.soils.length === 1 && !same;
     fill(box,
       h("h3", {}, "Plan with what was found"),
-      h("p", {}, `The corrected ${words(nominal.rover)} drives, and ground that the campaign called ${nominal.soils.map(words).join(", ")} is the corrected one.`),
+      h("p", {}, `The corrected rover (${roverWords(nominal.rover)}) drives, and ground that the campaign called ${nominal.soils.map(words).join(", ")} is the corrected one.`),
       may_choose && known.length === 0 ? h("p", { class: "hint" }, `${terrain?.terrain?.title ?? "The terrain"} has no map of soils, so that the rover and its motors alone are corrected: choose another terrain above for its ground.`) : null,
       may_choose && known.length > 0 ? h("fieldset", {}, h("legend", {}, `Which ground of ${terrain?.terrain?.title ?? "the terrain"} is that ground?`), boxes.map((b) => h("label", { class: "check" }, b.box, words(b.name))), h("p", { class: "hint" }, "None: only the rover and its motors are corrected.")) : null,
       button("Plan with the corrected model", () => {
@@ -179,6 +179,28 @@ function more(d: Diagnosis): HTMLElement[] {
   return parts;
 }
 
+/** What was found, in a sentence that can be read out. */
+export function leadOf(d: Diagnosis): string {
+  const named = d.effects.map((e) => store.state.effects.find((one) => one.name === e.name)?.summary ?? words(e.name));
+  const closed = d.gap.channels.filter((c) => c.closed_fraction).sort((a, b) => b.closed_fraction!.value - a.closed_fraction!.value)[0];
+  const closes = closed ? ` With ${named.length > 1 ? "them" : "it"}, ${share(closed.closed_fraction!.value)} of the gap in ${words(closed.channel)} closes on drives that no fit had seen.` : "";
+  const drives = `Drives of ${words(d.campaign)}`;
+  switch (d.verdict) {
+    case "effects":
+      return `The simulator leaves out what these drives show: ${named.join("; ")}.${closes}`;
+    case "effect_set":
+      return `These drives show something that the simulator leaves out, but not which of ${d.candidates.length > 1 ? "several explanations" : "its explanations"} is right.`;
+    case "parameters":
+      return "The simulator has all that these drives show: some of its numbers were off, and are told below.";
+    case "unknown":
+      return "These drives show something that no effect known to the simulator explains.";
+    case "insufficient":
+      return `${drives} are too few, or measured too little, to say what the simulator lacks.`;
+    default:
+      return `${drives} went as the simulator predicts: nothing is missing that they could show.`;
+  }
+}
+
 /** Draws the diagnosis that is followed. */
 export function diagnosisView(target: HTMLElement): void {
   let drawn = "";
@@ -196,6 +218,7 @@ export function diagnosisView(target: HTMLElement): void {
     const report = `v1/jobs/${job}/report`;
     fill(target,
       h("h2", {}, `Diagnosis of ${words(d.campaign)}`),
+      h("p", { class: "lead", "data-lead": true }, leadOf(d)),
       h("p", { class: "banner small unknown", "data-diagnosis": d.verdict }, verdictText[d.verdict]),
       h("p", {}, `${sentence(words(d.reason))}.`), h("p", { class: "hint" }, `What would change it: ${words(d.overturned_by)}.`),
       ...details(d),

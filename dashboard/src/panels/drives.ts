@@ -1,7 +1,7 @@
 // Campaigns of recorded drives: sent, watched, diagnosed.
 import { get, type Campaign } from "../api/client";
 import { button, field, fill, h, select } from "../dom";
-import { number, words } from "../format";
+import { number, roverWords, words } from "../format";
 import { empty, loading, problemView } from "../problem";
 import { store } from "../state";
 import { start } from "../work";
@@ -46,13 +46,13 @@ export function drivesPanel(target: HTMLElement): void {
 
 /** One that was sent has a name of the service's making. */
 export function campaignTitle(c: Campaign): string {
-  return c.sent_at ? `sent ${c.sent_at.slice(0, 16).replace("T", " ")}: ${c.rover}, ${c.drives.length} drives` : words(c.name);
+  return c.sent_at ? `sent ${c.sent_at.slice(0, 16).replace("T", " ")}: ${roverWords(c.rover)}, ${c.drives.length} drives` : words(c.name);
 }
 
 function describeCampaign(campaigns: Campaign[], campaign: Campaign): HTMLElement[] {
   const { drives } = campaign;
   return [
-    h("p", {}, `${words(campaign.rover)}, ${drives.length} drives, ${number(campaign.gravity_m_s2)} m/s²; believed soil: ${campaign.soils.map(words).join(", ")}.`),
+    h("p", {}, `${roverWords(campaign.rover)}, ${drives.length} drives, ${number(campaign.gravity_m_s2)} m/s²; believed soil: ${campaign.soils.map(words).join(", ")}.`),
     h("details", {}, h("summary", {}, "Its drives"),
       h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Drives" },
         h("table", {}, h("thead", {}, h("tr", {}, ["Drive", "Ground", "Time, s", "Speed, m/s"].map((t) => h("th", { scope: "col" }, t)))),

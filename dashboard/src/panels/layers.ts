@@ -2,6 +2,7 @@
 import { button, field, fill, h, select, swatch } from "../dom";
 import { words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
+import { shareClasses, shareColours } from "../limits";
 import { classLabels, classTitles } from "../result";
 import { palettes, store, usualBounds, usualPalette, type LayerName, type RouteColour, type State } from "../state";
 import { gapControls } from "./diagnosis";
@@ -26,7 +27,7 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   const ofTerrain = h("div", {},
     h("details", { open: isWide }, h("summary", {}, "Layers"), switches, swipe),
     h("details", { "data-risks": true }, h("summary", {}, "Risk of the ground"), risks),
-    h("details", { open: matchMedia("(min-width: 40rem)").matches }, h("summary", {}, "Legend"), riskLegends, legends, routes));
+    h("details", { open: matchMedia("(min-width: 60rem)").matches }, h("summary", {}, "Legend"), riskLegends, legends, routes));
   fill(target, gap, ofTerrain, h("details", {}, h("summary", {}, "Colours and classes"), classes));
   gapControls(gap);
   // A campaign's own ground has no layers.
@@ -78,7 +79,7 @@ function layerSwitch(name: LayerName): HTMLElement {
 }
 
 function routeLegend(state: State): HTMLElement {
-  const choices: [RouteColour, string][] = [["risk", "risk"], ["slip", "slip"], ["plain", "one colour"]];
+  const choices: [RouteColour, string][] = [["risk", "risk"], ["slip", "slip"], ["limits", "limits"], ["plain", "one colour"]];
   const by = state.routeColour;
   return h(
     "div",
@@ -87,7 +88,7 @@ function routeLegend(state: State): HTMLElement {
     h("div", { class: "row", role: "group", "aria-label": "What the routes' colours show" }, choices.map(([value, text]) => h("button", { type: "button", class: "chip", "aria-pressed": String(by === value), onclick: () => store.set({ routeColour: value }) }, text))),
     by !== "plain" && [
       h("p", { class: "hint" }, classTitles[by]),
-      h("ul", { class: "legend" }, classLabels(state.bounds[by]).map((label, k) => h("li", {}, swatch(state.palette[k]!), label)), h("li", {}, h("span", { class: "swatch dashed", "aria-hidden": "true" }), "on unknown ground"), h("li", {}, h("span", { class: "swatch triangle", "aria-hidden": "true" }), "a rule trips in some draws")),
+      h("ul", { class: "legend" }, (by === "limits" ? shareClasses.map((label, k) => [label, shareColours[k]!] as const) : classLabels(state.bounds[by]).map((label, k) => [label, k] as const)).map(([label, k]) => h("li", {}, swatch(state.palette[k]!), label)), h("li", {}, h("span", { class: "swatch dashed", "aria-hidden": "true" }), "on unknown ground"), h("li", {}, h("span", { class: "swatch triangle", "aria-hidden": "true" }), "a rule trips in some draws")),
     ],
   );
 }

@@ -1,6 +1,7 @@
 // What plans, checks and maps have in common: rover, rules, the belief about the ground, effects, a corrected model.
 import { button, field, fill, folded, h, select } from "../dom";
-import { number, words } from "../format";
+import { bareName, number, roverWords, sentence, wheelWords, words } from "../format";
+import { limits } from "../limits";
 import { store, type State } from "../state";
 
 export function options(target: HTMLElement, id: string): void {
@@ -22,17 +23,27 @@ export function options(target: HTMLElement, id: string): void {
 
 function commonFields(state: State, id: string): (HTMLElement | null)[] {
   const { options: chosen, rovers, rules } = state;
-  const rover = select(rovers.map((r) => ({ value: r.name!, text: r.name! })), chosen.rover, (value) => store.option({ rover: value, failedWheels: {}, ...(chosen.model && chosen.model.rover !== value ? { model: null } : {}) }));
+  const rover = select(rovers.map((r) => ({ value: r.name!, text: roverWords(r.name!) })), chosen.rover, (value) => store.option({ rover: value, failedWheels: {}, ...(chosen.model && chosen.model.rover !== value ? { model: null } : {}) }));
   const rule = select([{ value: "", text: "the usual limits" }, ...rules.map((r) => ({ value: r.name!, text: words(r.name!) }))], chosen.rules, (value) => store.option({ rules: value }));
   rover.id = `${id}-rover`;
   rule.id = `${id}-rules`;
   const set = rules.find((r) => r.name === chosen.rules);
+  const summary = rovers.find((r) => r.name === chosen.rover)?.summary;
   return [
     h("div", { class: "columns" }, field("Rover", rover), field("Rules", rule)),
-    set ? h("p", { class: "hint" }, set.summary ?? "") : null,
+    summary ? h("p", { class: "hint" }, `${summary}.`) : null,
+    set ? h("p", { class: "hint" }, `${set.summary ?? ""}.`) : null,
+    movedLimits(state),
     state.terrain?.terrain?.soil?.source === "none" ? h("p", { class: "hint", "data-no-soils": true }, "No map names the soils of this terrain: all of it is unknown ground, and no drive on it can be called a GO before some of it has been seen.") : null,
     modelNote(state),
   ];
+}
+
+/** Limits that were moved go with the next question too. */
+function movedLimits({ options: { limits: moved } }: State): HTMLElement | null {
+  const texts = limits.flatMap(({ key, words: text, unit }) => (moved[key] === undefined ? [] : [`${text.toLowerCase()} ${moved[key]}${unit && ` ${unit}`}`]));
+  if (texts.length === 0) return null;
+  return h("div", { class: "model-note", "data-moved-limits": true }, h("span", {}, `With ${texts.join(", ")}.`), button("As the rules have it", () => store.option({ limits: {} }), { class: "quiet" }));
 }
 
 function modelNote({ options: { model } }: State): HTMLElement | null {
@@ -90,24 +101,26 @@ function roverFields({ effects, rovers, options: chosen }: State, id: string): (
     const on = asked ? asked.on : has;
     const box = h("input", { type: "checkbox", id: `${id}-effect-${name}`, checked: on, onchange: () => set(name, box.checked === has ? null : { on: box.checked }) });
     return h("div", { class: "effect" },
-      h("label", { class: "check", title: effect.summary }, box, words(name), has ? h("small", {}, "the rover's") : null),
+      h("label", { class: "check" }, box, words(name), has ? h("small", {}, "the rover's") : null),
+      h("p", { class: "hint" }, `${sentence(effect.summary ?? "")}.`),
       on && !has ? h("div", { class: "columns" }, (effect.parameters ?? []).map((p) => {
         const input = h("input", { id: `${id}-effect-${name}-${p.name}`, type: "number", step: "any", min: p.lowest, max: p.highest, value: asked?.parameters[p.name!] ?? p.initial, onchange: () => {
           const { [p.name!]: _, ...rest } = asked?.parameters ?? {};
           const value = Number(input.value);
           set(name, { parameters: input.value === "" || value === p.initial ? rest : { ...rest, [p.name!]: value } });
         } });
-        return field(`${words(p.name!)}${p.unit && p.unit !== "1" ? ` (${p.unit})` : ""}`, input, `${number(p.lowest)} to ${number(p.highest)}`);
+        return field(`${words(bareName(p.name!, p.unit))}${p.unit && p.unit !== "1" ? `, ${p.unit}` : ""}`, input, `${p.summary ? `${sentence(p.summary)}: ` : ""}${number(p.lowest)} to ${number(p.highest)}`);
       })) : null);
   });
   const wheels = (rover?.wheels ?? []).map((wheel) => {
     const name = wheel.name!;
-    const choice = select(["", "locked", "free", "off"].map((value) => ({ value, text: value || "drives" })), chosen.failedWheels[name] ?? "", (value) => {
+    const states = { "": "drives", locked: "locked: it does not turn", free: "free: uncoupled", off: "off: its motor has no power" };
+    const choice = select(Object.entries(states).map(([value, text]) => ({ value, text })), chosen.failedWheels[name] ?? "", (value) => {
       const { [name]: _, ...rest } = chosen.failedWheels;
-      store.option({ failedWheels: value ? { ...rest, [name]: value } : rest });
+      store.option({ failedWheels: value ? { ...rest, [name]: value as "locked" | "free" | "off" } : rest });
     });
     choice.id = `${id}-wheel-${name}`;
-    return field(`Wheel ${name}`, choice);
+    return field(sentence(wheelWords(name)), choice);
   });
   return [
     h("p", { class: "hint" }, "What the simulator has besides wheels in soil: off unless the rover or you say so."),

@@ -1,7 +1,7 @@
 // Paths and command sequences out of texts: CSV, GeoJSON, and the words of `slipway check --command`.
 import type { Body } from "../map/body";
 import type { Place } from "../state";
-import type { Command } from "./request";
+import type { Command, Telemetry } from "./request";
 
 export interface ReadPath {
   path?: Place[];
@@ -45,7 +45,7 @@ function readCsv(text: string): Place[] {
 }
 
 /** Telemetry so far, by the columns of `slipway check --drive-so-far`: WHEEL_current_a is the current of that wheel. */
-export function readTelemetry(text: string): Record<string, unknown>[] {
+export function readTelemetry(text: string): Telemetry {
   const lines = text.trim().split(/\r?\n/).filter((line) => line.trim() !== "" && !line.startsWith("#"));
   const head = (lines[0] ?? "").split(",").map((cell) => cell.trim());
   for (const needed of ["driven_m", "x_m", "y_m"]) if (!head.includes(needed)) throw new Error(`The first line of the telemetry names no column ${needed}.`);
@@ -59,7 +59,7 @@ export function readTelemetry(text: string): Record<string, unknown>[] {
       if (name !== "current_a" && name.endsWith("_current_a")) wheels[name.slice(0, -"_current_a".length)] = value;
       else row[name] = value;
     });
-    return Object.keys(wheels).length > 0 ? { ...row, currents_a: wheels } : row;
+    return (Object.keys(wheels).length > 0 ? { ...row, currents_a: wheels } : row) as Telemetry[number];
   });
 }
 

@@ -1,11 +1,14 @@
 // The form of a plan: by clicks on the map, by typing, by keyboard.
 import { asCurl } from "../api/client";
+import type { TerrainMap } from "../map/terrain_map";
 import { button, field, fill, folded, h } from "../dom";
-import { readPlace, writePlace } from "../format";
+import { readPlace, sentence, words, writePlace } from "../format";
+import { placeInDegrees } from "../map/body";
 import { firstTool, store, type Drawn, type Place, type Tool } from "../state";
-import { start } from "../work";
+import { planNow } from "../work";
 import { options } from "./options";
-import { planRequest } from "./request";
+import { examplesView } from "./examples";
+import { planDraft } from "./request";
 
 const tools: { tool: Tool; text: string; key: string }[] = [
   { tool: "start", text: "Start", key: "S" },
@@ -14,6 +17,11 @@ const tools: { tool: Tool; text: string; key: string }[] = [
   { tool: "keep_out", text: "Keep out", key: "K" },
   { tool: "keep_in", text: "Keep in", key: "I" },
 ];
+
+/** A tool that is pressed again is put down, unless it is what the plan lacks. */
+function pick(tool: Tool, now: Tool): void {
+  store.set({ tool: tool === now ? firstTool(store.state) : tool });
+}
 
 /** Buttons that say what a click on the map does. */
 export function toolBar(shown: Tool[]): HTMLElement {
@@ -24,7 +32,7 @@ export function toolBar(shown: Tool[]): HTMLElement {
       tools
         .filter((t) => shown.includes(t.tool))
         .map((t) =>
-          h("button", { type: "button", "aria-pressed": String(t.tool === tool), title: `Key ${t.key}`, "data-tool": t.tool, onclick: () => store.set({ tool: t.tool === tool ? "look" : t.tool }) }, t.text),
+          h("button", { type: "button", "aria-pressed": String(t.tool === tool), title: `Key ${t.key}`, "data-tool": t.tool, onclick: () => pick(t.tool, tool) }, t.text),
         ),
     );
   });
@@ -37,32 +45,38 @@ interface PlaceField {
 }
 
 /** Stays while others change: what is being typed into it is not lost. */
-function placeField(label: string, id: string, change: (place: Place | null) => void): PlaceField {
+function placeField(label: string, id: string, map: TerrainMap, change: (place: Place | null) => void): PlaceField {
+  const degrees = h("small", { "data-degrees": id });
   const input = h("input", {
     id,
-    placeholder: "x, y in metres of the map",
+    placeholder: "x, y in metres, or degrees: 137.4 E, 4.7 S",
     inputmode: "text",
     autocomplete: "off",
     spellcheck: "false",
     onchange: () => {
-      const place = readPlace(input.value);
-      input.setCustomValidity(place || input.value.trim() === "" ? "" : "Two numbers, x and y in metres");
+      const place = readPlace(input.value, map.body);
+      input.setCustomValidity(place || input.value.trim() === "" ? "" : "Two numbers: x and y in metres, or longitude with E or W and latitude with N or S");
       if (input.reportValidity()) change(place);
     },
   });
   return {
-    element: field(label, input),
+    element: h("div", {}, field(label, input), degrees),
     show: (place) => {
       const text = writePlace(place);
+      degrees.textContent = place ? placeInDegrees(place, map.body) : "";
       if (input.value !== text && document.activeElement !== input) input.value = text;
-      else if (readPlace(input.value) === null && place) input.value = text;
+      else if (readPlace(input.value, map.body) === null && place) input.value = text;
     },
   };
 }
 
 export function zones(): HTMLElement {
   const list = h("div", { class: "zones" });
+  let shown: unknown = null;
   store.on(["drawn"], ({ drawn }) => {
+    const now = JSON.stringify([drawn.keep_out, drawn.keep_in]);
+    if (now === shown) return; // a drag moves other things
+    shown = now;
     const row = (kind: "keep_out" | "keep_in", words: string) =>
       drawn[kind].map((ring, i) =>
         h("li", {}, h("span", {}, `${words} ${i + 1}, ${ring.length} corners`), button("Remove", () => store.draw({ [kind]: drawn[kind].filter((_, k) => k !== i) }), { class: "quiet", "aria-label": `Remove ${words} ${i + 1}` })),
@@ -73,35 +87,35 @@ export function zones(): HTMLElement {
   return list;
 }
 
-export function planPanel(target: HTMLElement): void {
+export function planPanel(target: HTMLElement, map: TerrainMap): void {
   const common = h("div");
   // What has been typed needs no click any more.
   const put = (change: Partial<Drawn>) => {
     store.draw(change);
     if (["start", "goal"].includes(store.state.tool)) store.set({ tool: firstTool(store.state) });
   };
-  const from = placeField("Start", "plan-start", (place) => put({ start: place }));
-  const goal = placeField("Goal", "plan-goal", (place) => put({ goal: place }));
+  const from = placeField("Start", "plan-start", map, (place) => put({ start: place }));
+  const goal = placeField("Goal", "plan-goal", map, (place) => put({ goal: place }));
   const via = h("div");
   let waypoints: PlaceField[] = [];
   const weights = h("details", { class: "weights" });
   const curl = h("details");
-  const go = button("Plan the drive", () => void start("v1/plans", planRequest()), { class: "primary", "data-do": "plan" });
+  const go = button("Plan the drive", planNow, { class: "primary", "data-do": "plan" });
   const hint = h("p", { class: "hint", id: "plan-hint" });
   go.setAttribute("aria-describedby", "plan-hint");
   options(common, "plan");
-  store.on(["drawn"], ({ drawn }) => {
+  store.on(["drawn", "terrain"], ({ drawn }) => {
     from.show(drawn.start);
     goal.show(drawn.goal);
     if (waypoints.length !== drawn.waypoints.length) {
       const change = (i: number, place: Place | null) => store.draw({ waypoints: store.state.drawn.waypoints.flatMap((w, k) => (k === i ? (place ? [place] : []) : [w])) });
-      waypoints = drawn.waypoints.map((_, i) => placeField(`Way point ${i + 1}`, `plan-via-${i}`, (place) => change(i, place)));
+      waypoints = drawn.waypoints.map((_, i) => placeField(`Way point ${i + 1}`, `plan-via-${i}`, map, (place) => change(i, place)));
       fill(via, waypoints.map((waypoint, i) => h("div", { class: "with-button" }, waypoint.element, button("Remove", () => change(i, null), { class: "quiet", "aria-label": `Remove way point ${i + 1}` }))));
     }
     waypoints.forEach((waypoint, i) => waypoint.show(drawn.waypoints[i]!));
     const missing = [!drawn.start && "a start", !drawn.goal && "a goal"].filter(Boolean).join(" and ");
     go.disabled = missing !== "";
-    hint.textContent = missing ? `Click ${missing} on the map, or type ${drawn.start || drawn.goal ? "it" : "them"}.` : "Ctrl+Enter plans, Ctrl+Z takes back what was drawn.";
+    hint.textContent = missing ? `Click ${missing} on the map, or type ${drawn.start || drawn.goal ? "it" : "them"}.` : "Drag start or goal on the map to plan anew at once. Ctrl+Enter plans, Ctrl+Z takes back what was drawn.";
   });
   const drawWeights = folded(weights, () => "What a route costs", () => {
     const { costTerms, options: chosen } = store.state;
@@ -118,14 +132,14 @@ export function planPanel(target: HTMLElement): void {
             store.option({ weights: input.value === "" || value === weight.initial ? others : { ...others, [term.name!]: value } });
           },
         });
-        return field(`${term.name} (${weight.unit})`, input, term.summary);
+        return field(`${sentence(words(term.name!))}, ${weight.unit}`, input, `${sentence(term.summary ?? "")}.`);
       }),
     ];
   });
   store.on(["costTerms", "options"], () => {
     if (!(weights.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement)) drawWeights();
   });
-  const drawCurl = folded(curl, () => "The request as a command", () => [h("pre", { tabindex: 0, "data-curl": true }, asCurl("v1/plans", planRequest()))]);
+  const drawCurl = folded(curl, () => "The request as a command", () => [h("pre", { tabindex: 0, "data-curl": true }, asCurl("v1/plans", planDraft()))]);
   store.on(["drawn", "options", "terrain", "rules"], drawCurl);
-  fill(target, common, h("h2", {}, "Places"), toolBar(tools.map((t) => t.tool)), from.element, via, goal.element, zones(), weights, go, hint, curl);
+  fill(target, examplesView(), common, h("h2", {}, "Places"), toolBar(tools.map((t) => t.tool)), from.element, via, goal.element, zones(), weights, go, hint, curl);
 }

@@ -1,15 +1,22 @@
 // What is asked for, as the API takes it.
+import type { CheckRequest, Limits, MapRequest, PlanRequest } from "../api/client";
 import type { RiskKind } from "../map/risk_types";
-import { store, type State } from "../state";
+import { store, type Stale, type State } from "../state";
 
-/** Limits, checks and bars of the chosen set of rules: plans take them one by one, checks by the set's name. */
-function rulesOf(state: State): Record<string, unknown> {
+/** The limits that the form asks for: the chosen rules', with those that were moved. */
+function limitsOf(state: State): { limits?: Limits } {
+  const limits = { ...state.rules.find((r) => r.name === state.options.rules)?.limits, ...state.options.limits };
+  return Object.keys(limits).length > 0 ? { limits } : {};
+}
+
+/** Limits, checks and bars of the chosen set of rules: plans and maps take them one by one, checks by the set's name. */
+function rulesOf(state: State): Pick<PlanRequest, "limits" | "checks" | "bars"> {
   const set = state.rules.find((r) => r.name === state.options.rules);
-  return set ? { limits: set.limits, checks: set.checks, bars: set.bars } : {};
+  return { ...(set?.checks ? { checks: set.checks } : {}), ...(set?.bars ? { bars: set.bars } : {}), ...limitsOf(state) };
 }
 
 /** What of the rover and of the belief differs from what the service takes by itself. */
-function settings({ options }: State): Record<string, unknown> {
+function settings({ options }: State): Pick<PlanRequest, "effects" | "failed_wheels" | "confidence" | "unknown_soil" | "model"> {
   const { model } = options;
   return {
     ...(options.effects.length > 0 ? { effects: options.effects.map(({ name, on, parameters }) => ({ name, ...(Object.keys(parameters).length > 0 ? { parameters } : {}), ...(on ? {} : { on }) })) } : {}),
@@ -20,10 +27,10 @@ function settings({ options }: State): Record<string, unknown> {
   };
 }
 
-function shared(state: State): Record<string, unknown> {
+function shared(state: State) {
   const { options, drawn } = state;
   return {
-    terrain: state.terrain?.terrain?.name,
+    terrain: state.terrain?.terrain?.name ?? "",
     rover: options.rover,
     ...(drawn.keep_out.length > 0 ? { keep_out: drawn.keep_out } : {}),
     ...(drawn.keep_in.length > 0 ? { keep_in: drawn.keep_in } : {}),
@@ -33,11 +40,12 @@ function shared(state: State): Record<string, unknown> {
   };
 }
 
-const weights = ({ options }: State): Record<string, unknown> => (Object.keys(options.weights).length > 0 ? { weights: options.weights } : {});
+const weights = ({ options }: State): Pick<PlanRequest, "weights"> => (Object.keys(options.weights).length > 0 ? { weights: options.weights } : {});
 
-const draws = ({ options }: State): Record<string, unknown> => (options.draws !== null ? { draws: options.draws } : {});
+const draws = ({ options }: State): Pick<PlanRequest, "draws"> => (options.draws !== null ? { draws: options.draws } : {});
 
-export function planRequest(state: State = store.state): Record<string, unknown> {
+/** Without a goal it is no request yet. */
+export function planDraft(state: State = store.state): Omit<PlanRequest, "goal"> & Partial<Pick<PlanRequest, "goal">> {
   const { options, drawn } = state;
   return {
     ...shared(state),
@@ -51,21 +59,50 @@ export function planRequest(state: State = store.state): Record<string, unknown>
   };
 }
 
-export type Command = Record<string, number>;
+/** Null as long as start or goal is missing. */
+export function planRequest(state: State = store.state): PlanRequest | null {
+  const { start, goal } = state.drawn;
+  return start && goal ? { ...planDraft(state), goal } : null;
+}
+
+export type Command = NonNullable<CheckRequest["commands"]>[number];
+type DriveSoFar = NonNullable<CheckRequest["drive_so_far"]>;
+export type Telemetry = NonNullable<DriveSoFar["rows"]>;
 
 interface CheckParts {
   commands: { start?: { x_m: number; y_m: number; yaw_deg: number }; list: Command[] } | null;
-  soFar: Record<string, unknown>[];
+  soFar: Telemetry;
 }
 
-export function checkRequest({ commands, soFar }: CheckParts, state: State = store.state): Record<string, unknown> {
+export function checkRequest({ commands, soFar }: CheckParts, state: State = store.state): CheckRequest {
+  const limits = state.options.limits;
   return {
     ...shared(state),
     ...(soFar.length > 0 ? { drive_so_far: { rows: soFar } } : {}),
     ...(commands ? { ...(commands.start ? { start: commands.start } : {}), commands: commands.list } : { path: state.drawn.path }),
     ...draws(state),
     ...(state.options.rules ? { rules: state.options.rules } : {}),
+    ...(Object.keys(limits).length > 0 ? { limits } : {}),
   };
+}
+
+/** What an answer of this kind depends on, in two parts: the limits alone, and all else. */
+export interface Question {
+  limits: string;
+  rest: string;
+}
+export function question(kind: string, state: State = store.state): Question {
+  const { limits, ...rest } = kind === "plan" ? planDraft(state) : checkRequest({ commands: null, soFar: [] }, state);
+  return { limits: JSON.stringify(limits ?? {}), rest: JSON.stringify(kind === "plan" ? rest : [rest, state.typed]) };
+}
+
+/** Whether the answer on the screen is one to what the form asks now. */
+export function staleness(state: State): Stale {
+  const { result } = state;
+  if (!result) return "";
+  const now = question(result.kind, state);
+  if (now.rest !== result.asked.rest) return "all";
+  return now.limits === result.asked.limits ? "" : "limits";
 }
 
 export interface RiskSettings {
@@ -79,7 +116,7 @@ export interface RiskSettings {
 const max_cells = 4_194_304; // that the service makes in one map
 
 /** The whole terrain where it is small enough; else what the map shows of it. */
-function extentOf(state: State, view: number[]): Record<string, unknown> {
+function extentOf(state: State, view: number[]): Pick<MapRequest, "extent"> {
   const terrain = state.terrain?.terrain;
   const cells = (terrain?.rows ?? 0) * (terrain?.columns ?? 0);
   if (!terrain?.extent || cells <= max_cells) return {};
@@ -91,7 +128,7 @@ function extentOf(state: State, view: number[]): Record<string, unknown> {
 }
 
 /** A map of risk with the rover, the rules, the zones and the belief of the form: the plan's own. */
-export function riskRequest(kind: RiskKind, { heading_deg, distance_m, believe_unknown, budget_wh, view }: RiskSettings, state: State = store.state): Record<string, unknown> {
+export function riskRequest(kind: RiskKind, { heading_deg, distance_m, believe_unknown, budget_wh, view }: RiskSettings, state: State = store.state): MapRequest {
   const of_way = kind === "cost_to_go" || kind === "reachable";
   const of_drive = kind === "stop_risk" || kind === "embedding_risk" || kind === "verdict";
   const { keep_out, keep_in, ...rest } = shared(state);
@@ -103,8 +140,8 @@ export function riskRequest(kind: RiskKind, { heading_deg, distance_m, believe_u
     ...extentOf(state, view),
     ...(kind === "slip" ? { heading_deg: heading_deg ?? 0 } : of_drive && heading_deg !== null ? { heading_deg } : {}),
     ...(of_drive && distance_m !== 10 ? { distance_m } : {}),
-    ...(believe_unknown && !of_way && kind !== "verdict" ? { unknown_ground: "belief" } : {}),
-    ...(kind === "cost_to_go" ? { to: state.drawn.goal, ...weights(state) } : {}),
-    ...(kind === "reachable" ? { from: state.drawn.start, budget: { energy_j: budget_wh * 3600 } } : {}),
+    ...(believe_unknown && !of_way && kind !== "verdict" ? { unknown_ground: "belief" as const } : {}),
+    ...(kind === "cost_to_go" ? { ...(state.drawn.goal ? { to: state.drawn.goal } : {}), ...weights(state) } : {}),
+    ...(kind === "reachable" ? { ...(state.drawn.start ? { from: state.drawn.start } : {}), budget: { energy_j: budget_wh * 3600 } } : {}),
   };
 }

@@ -1,6 +1,6 @@
 // Drives and maps that are sent to the service.
 import { ask, get, ServiceError, type Job } from "../api/client";
-import { button, field, fill, h } from "../dom";
+import { button, field, fill, h, select } from "../dom";
 import { loading, problemView } from "../problem";
 import { store } from "../state";
 import { start } from "../work";
@@ -46,7 +46,7 @@ export function campaignUpload(target: HTMLElement, taken: (name: string) => voi
       fill(note, problemView("Choose an archive first."));
       return;
     }
-    void sendAll(note, { archive }, (ids) => start("v1/drive-campaigns", { upload: ids.archive }));
+    void sendAll(note, { archive }, (ids) => start("v1/drive-campaigns", { upload: ids.archive! }));
   });
   whenDone("drive_campaign", (answer) => taken((answer as { name: string }).name));
   fill(target, h("details", {}, h("summary", {}, "Send drives of your own"), field("Archive (tar, tar.gz or zip)", file, "It holds campaign.json and the files that this names; every fault of every file is told."), press, note));
@@ -57,8 +57,16 @@ export function terrainUpload(opened: (name: string) => void): { open: () => voi
   const text = (attributes: Record<string, string | boolean> = {}) => h("input", { autocomplete: "off", ...attributes });
   const name = text({ required: true, pattern: "[a-z0-9_\\-]+", "data-upload": "name" });
   const elevation = h("input", { type: "file", accept: ".tif,.tiff,.img,.asc,.vrt,.lbl", required: true, "data-upload": "elevation" });
-  const soil = h("input", { type: "file", accept: ".tif,.tiff,.geojson,.json" });
-  const legend = h("input", { type: "file", accept: ".csv" });
+  const soil = h("input", { type: "file", accept: ".tif,.tiff,.geojson,.json", "data-upload": "soil" });
+  const legend = h("input", { type: "file", accept: ".csv", "data-upload": "legend" });
+  const property = text({ value: "unit", "data-upload": "property" });
+  let coordinates: "lonlat" | "map" = "lonlat";
+  const ofPolygons = h("div", { class: "columns" },
+    field("Property that names the class", property, "Of each polygon: what the legend's labels are."),
+    field("Places of the polygons", select([{ value: "lonlat", text: "degrees, longitude and latitude" }, { value: "map", text: "metres of the map" }], "lonlat", (value) => (coordinates = value as typeof coordinates))));
+  ofPolygons.hidden = true;
+  const arePolygons = () => /\.(geo)?json$/i.test(soil.files?.[0]?.name ?? "");
+  soil.addEventListener("change", () => (ofPolygons.hidden = !arePolygons()));
   const [title, licence, source] = [text(), text(), text()];
   const fix = h("input", { type: "checkbox" });
   const dialog = h(
@@ -69,13 +77,15 @@ export function terrainUpload(opened: (name: string) => void): { open: () => voi
       void sendAll(note, { elevation: elevation.files?.[0], soil: soil.files?.[0], legend: legend.files?.[0] }, async (ids) => {
         const said = Object.fromEntries(Object.entries({ title, licence, source }).map(([key, input]) => [key, input.value.trim()]).filter(([, value]) => value));
         dialog.close();
-        await start("v1/terrains", { name: name.value, ...ids, ...said, ...(fix.checked ? { fix: true } : {}) });
+        const polygons = arePolygons() ? { property: property.value.trim() || "unit", soil_coordinates: coordinates } : {};
+        await start("v1/terrains", { name: name.value, elevation: ids.elevation!, ...ids, ...polygons, ...said, ...(fix.checked ? { fix: true } : {}) });
       });
     } },
       h("h2", { id: "terrain-title" }, "A terrain of your own"),
       field("Name", name, "Small letters, digits, - and _"),
       field("Elevation map", elevation, "In a metric projection of its body; what is wrong with it is told, with the command that converts it."),
       h("div", { class: "columns" }, field("Map of soil classes (optional)", soil), field("Its legend (optional CSV)", legend, "value, label, soil")),
+      ofPolygons,
       field("Title", title),
       h("div", { class: "columns" }, field("Licence", licence), field("Source", source)),
       h("label", {}, fix, " mend what can be mended without a guess"),

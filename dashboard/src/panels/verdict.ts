@@ -1,12 +1,14 @@
 // The verdict with its reasons, the rules that decide, the routes beside each other.
 import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
-import { duration, metres, number, sentence, share, words } from "../format";
+import { duration, metres, number, roverWords, sentence, share, wheelWords, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
 import { isAboutRoutes, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
 import { store } from "../state";
+import { causeWords } from "../why";
 import { adviceView, reasonText } from "./advice";
 import { exportsView } from "./exports";
+import { limitSliders } from "./limits";
 
 function rulesTable(route: Route, map: TerrainMap): HTMLElement {
   const row = (rule: Rule) => {
@@ -22,7 +24,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
         map.showStretch(from_m, to_m ?? from_m);
         store.set({ hover_m: from_m });
       }, { class: "link", title: "Show on the map" })),
-      h("td", {}, [rule.cause && words(rule.cause), rule.wheel && `wheel ${rule.wheel}`].filter(Boolean).join(", ") || "–"),
+      h("td", {}, [rule.cause && causeWords(rule.cause), rule.wheel && wheelWords(rule.wheel)].filter(Boolean).join(", ") || "–"),
     );
   };
   return h(
@@ -42,14 +44,15 @@ export const nearest = ({ value }: Rule): string => `${number(value.p50)} (${num
 export const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
 
 export const figures: [string, (r: Route) => number | null | undefined, (v: number | null | undefined) => string][] = [
+  ["Cost that ranks, h of driving", (r) => r.figures.cost, (v) => number(v, 4)],
   ["Length", (r) => r.figures.length_m, metres],
   ["Time under way", (r) => r.figures.duration_s, duration],
   ["Energy, Wh", (r) => r.figures.energy_wh, (v) => number(v)],
-  ["Mean slip", (r) => r.figures.mean_slip, (v) => number(v)],
-  ["Mean slip, 95 % below", (r) => r.figures.mean_slip_p95, (v) => number(v)],
-  ["P(stop)", (r) => r.outcomes.stop.value, share],
-  ["P(immobilised)", (r) => r.outcomes.immobilised.value, share],
-  ["P(embedding)", (r) => r.outcomes.embedding.value, share],
+  ["Mean slip, ratio", (r) => r.figures.mean_slip, (v) => number(v)],
+  ["Mean slip, 95 % of the draws below", (r) => r.figures.mean_slip_p95, (v) => number(v)],
+  ["Halts, % of the draws", (r) => r.outcomes.stop.value, share],
+  ["Held by the ground, % of the draws", (r) => r.outcomes.immobilised.value, share],
+  ["Embedded, % of the draws", (r) => r.outcomes.embedding.value, share],
   ["On unknown ground", (r) => r.figures.unknown_length_m, metres],
   ["Steepest tilt, deg", (r) => r.figures.max_tilt_deg?.value, (v) => number(v)],
 ];
@@ -69,7 +72,8 @@ function comparison(result: Result, other: Result | null): HTMLElement {
       index !== null && index !== chosen && h("label", { class: "compare" }, h("input", { type: "checkbox", checked: compared === index, onchange: () => store.set({ compared: compared === index ? null : index }) }), "compare"),
     ),
   );
-  const body = figures.map(([name, value, write]) =>
+  const ranked = figures.filter(([, value]) => columns.some(({ route }) => value(route) !== undefined)); // a check ranks nothing
+  const body = ranked.map(([name, value, write]) =>
     h(
       "tr",
       {},
@@ -81,7 +85,14 @@ function comparison(result: Result, other: Result | null): HTMLElement {
       }),
     ),
   );
-  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Routes beside each other" }, h("table", { class: "compare-table" }, h("thead", {}, h("tr", {}, h("td", {}), head)), h("tbody", {}, body)));
+  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Routes beside each other" }, h("table", { class: "compare-table" }, h("thead", {}, h("tr", {}, h("td", {}), head)), h("tbody", {}, body)), costTerms(reference));
+}
+
+/** What the cost that ranks is made of. */
+function costTerms(route: Route | undefined): HTMLElement | null {
+  const terms = (route?.figures.cost_shares ?? []).filter((term) => term.cost);
+  if (!route || terms.length === 0) return null;
+  return h("p", { class: "hint", "data-cost": true }, `The routes are ranked by their cost, in hours of driving (mean of the draws). ${route.title}: ${terms.map((term) => `${words(term.name ?? "")} ${number(term.cost, 2)}`).join(" + ")} = ${number(route.figures.cost, 4)}.`);
 }
 
 /** What the drive has met so far against what had been predicted before it was measured. */
@@ -100,7 +111,7 @@ function driven(result: Result): HTMLElement {
   );
 }
 
-const shortId = (text: string): string => (/^[0-9a-f]{32}$/.test(text) ? `${text.slice(0, 8)}…` : words(text));
+const shortId = (text: string): string => (/^[0-9a-f]{32}$/.test(text) ? "another" : words(text));
 
 /** What was asked differently of two answers. */
 function askedDifferently(result: Result, other: Result): HTMLElement | null {
@@ -118,12 +129,12 @@ function segments(route: Route, map: TerrainMap): HTMLElement | null {
   if (list.length === 0) return null;
   return h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Segments" },
     h("h3", {}, "Segment by segment"),
-    h("table", {}, h("thead", {}, h("tr", {}, ["Segment", "Verdict", "P(stop)", "P(immobilised)", "P(embedding)", "Reached in"].map((t) => h("th", { scope: "col" }, t)))),
+    h("table", {}, h("thead", {}, h("tr", {}, ["Segment", "Verdict", "Halts in", "Held by the ground in", "Embedded in", "Reached in"].map((t) => h("th", { scope: "col" }, t)))),
       h("tbody", {}, list.map((s) => h("tr", {}, h("th", { scope: "row" }, button(`${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`, () => map.showStretch(s.from_m, s.to_m), { class: "link" })), h("td", {}, h("span", { class: `badge ${s.verdict}` }, verdictWords[s.verdict])), [s.stop.value, s.immobilised.value, s.embedding.value, s.reached].map((v) => h("td", {}, share(v))))))));
 }
 
 /** The probability that decides, beside the verdict. */
-const stopText = ({ outcomes: { stop } }: Route): string => `P(stop) ${share(stop.value)} (${share(stop.low)} to ${share(stop.high)})`;
+const stopText = ({ outcomes: { stop } }: Route): string => `Halts in ${share(stop.value)} of the draws (${share(stop.low)} to ${share(stop.high)})`;
 
 /** Why there are not as many routes as were asked for. */
 const fewer = ({ fewer: reasons }: Result): HTMLElement | null =>
@@ -131,7 +142,11 @@ const fewer = ({ fewer: reasons }: Result): HTMLElement | null =>
 
 export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => void): void {
   // While another question is asked, what stands here answers the one before.
-  store.on(["job"], ({ job }) => target.classList.toggle("of-before", job !== null && isAboutRoutes(job.kind) && !hasEnded(job)));
+  store.on(["job", "stale"], ({ job, stale }) => {
+    target.classList.toggle("of-before", stale !== "" || (job !== null && isAboutRoutes(job.kind) && !hasEnded(job)));
+    target.dataset.stale = stale;
+  });
+  const sliders = limitSliders();
   store.on(["result", "route", "compared", "other", "tab"], ({ result, other, tab }) => {
     // A plan's verdict does not stand beside the form of a check.
     if (!result || tab === "drives" || (tab === "plan" && result.kind !== "plan") || (tab === "check" && result.kind === "plan")) {
@@ -144,8 +159,9 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
       !route && h("div", { class: "banner no_go" }, "NO ROUTE"),
       !route && fewer(result),
       route && [
-        h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`), route.outcomes.draws > 0 && h("small", { "data-stop": true }, stopText(route))),
+        h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${roverWords(result.rover)}`), route.outcomes.draws > 0 && h("small", { "data-stop": true }, stopText(route))),
         ...adviceView(result, route, map),
+        sliders,
         result.driven.length > 0 && driven(result),
         comparison(result, other),
         fewer(result),
@@ -165,10 +181,9 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
 export function provenance(result: Result): [string, string][] {
   const p = result.provenance;
   return [
-    ["Job", `${result.kind} ${result.job}`],
-    ["Asked", result.created],
+    ["Asked", `${result.created.slice(0, 16).replace("T", " ")} UTC`],
     ["Slipway", p.slipway ?? "–"],
-    ["Terrain", `${result.terrain}, fingerprint ${p.terrain_fingerprint ?? "–"}`],
+    ["Terrain", store.state.terrain?.terrain?.title ?? words(result.terrain)],
     ["Seed", String(p.seed ?? "–")],
     ["Soils", `${words(p.legend ?? "–")}: ${p.soil_assumption ?? ""}`],
   ];

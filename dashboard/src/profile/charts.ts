@@ -1,5 +1,6 @@
 // Series against metres driven, under each other with one cursor, which is also a place on the map.
 import uPlot from "uplot";
+import type { Limits } from "../api/client";
 import { fill, h, swatch } from "../dom";
 import { number, share } from "../format";
 import { empty } from "../problem";
@@ -96,7 +97,8 @@ function readoutOf([line, low, high, second, other]: Read[], digits: number, at_
 }
 
 export class ProfileCharts {
-  private plots: { plot: uPlot; read: (i: number | null) => void }[] = [];
+  private plots: { plot: uPlot; read: (i: number | null) => void; take?: (limits: Record<string, number>) => void }[] = [];
+  private moved_limits: Limits = store.state.options.limits;
   private shown = new Set(usuallyShown);
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
   private measured: uPlot | null = null; // of a drive so far
@@ -116,6 +118,14 @@ export class ProfileCharts {
       } else if (next) this.followed.point(s);
     });
     store.on(["hover_m"], (s) => this.point(s));
+    store.on(["options"], ({ options, result }) => {
+      if (options.limits === this.moved_limits) return;
+      this.moved_limits = options.limits;
+      for (const { plot, take } of this.plots) {
+        take?.({ ...result?.limits, ...options.limits });
+        plot.setData(plot.data);
+      }
+    });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw(store.state));
   }
 
@@ -143,7 +153,7 @@ export class ProfileCharts {
     for (const chart of wheelCharts) if (this.shown.has(chart.title)) this.addWheels(chart, route.stations, limitsOf(chart, state.result!.limits));
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
     const tripped = new Set<string>(tripsOf(route).map((rule) => rule.rule));
-    for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, state.result!.limits);
+    for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, { ...state.result!.limits, ...state.options.limits });
     this.point(state);
   }
 
@@ -165,8 +175,11 @@ export class ProfileCharts {
 
   private add(chart: Chart, route: Route, second: Route | null, limits: Record<string, number>): void {
     const s = route.stations;
-    const painted = { limits: limitsOf(chart, limits), trips: tripsOf(route).filter((r) => r.rule === chart.rule) };
-    const held = painted.limits.slice(0, chart.both ? 2 : 1).map((l) => l.at);
+    const painted: Painted = { limits: [], trips: tripsOf(route).filter((r) => r.rule === chart.rule) };
+    // Limits that are moved move their lines.
+    const take = (now: Record<string, number>) => (painted.limits = limitsOf(chart, now));
+    take(limits);
+    const held = () => painted.limits.slice(0, chart.both ? 2 : 1).map((l) => l.at);
     const ends_m = ({ outcomes: { segments } }: Route) => (segments ?? []).map((segment) => segment.to_m);
     const columns: (Values | null)[] = [chart.line(s, ends_m(route)), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
     columns.push(second ? resampled(chart.line(second.stations, ends_m(second)), second.stations.distance_m, s.distance_m) : null);
@@ -183,7 +196,7 @@ export class ProfileCharts {
         cursor: { y: false, sync: { key: "route" }, drag: { x: true, y: false } },
         scales: {
           x: { time: false },
-          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, ...held), Math.max(max, ...held), 0.08, true) },
+          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, ...held()), Math.max(max, ...held()), 0.08, true) },
         },
         axes: axes(),
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
@@ -205,7 +218,7 @@ export class ProfileCharts {
       box,
     );
     const digits = chart.digits ?? 3;
-    this.plots.push({ plot, read: (i) => (readout.textContent = i === null ? "" : readoutOf(columns.map((v) => v?.[i]), digits, s.distance_m[i]!)) });
+    this.plots.push({ plot, take, read: (i) => (readout.textContent = i === null ? "" : readoutOf(columns.map((v) => v?.[i]), digits, s.distance_m[i]!)) });
   }
 
   private addWheels({ key, title }: (typeof wheelCharts)[number], s: Stations, limits: Painted["limits"]): void {

@@ -1,7 +1,8 @@
 // What lies below and above the lines of a chart along a route: unknown ground, where rules trip, limits.
 import type uPlot from "uplot";
 import { swatch } from "../dom";
-import { share, words } from "../format";
+import { share, wheelWords } from "../format";
+import { causeWords } from "../why";
 import type { Rule, Stations } from "../result";
 
 export const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -91,7 +92,7 @@ export function paintLimits(u: uPlot, { limits, trips }: Painted): void {
       write(limit.words, left + width - ctx.measureText(limit.words).width - 4 * px, at);
     }
     trips.forEach((trip, k) => {
-      const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
+      const text = `${share(trip.trips.value)}${trip.cause ? `, ${causeWords(trip.cause)}` : ""}${trip.wheel ? `, ${wheelWords(trip.wheel)}` : ""}`;
       const from = u.valToPos(trip.from_m!, "x", true);
       write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + height - (5 + 13 * k) * px);
     });
