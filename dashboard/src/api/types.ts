@@ -2037,6 +2037,8 @@ export interface components {
             model_adequate: boolean;
             /** @description That beliefs like these contradict drives by so much by chance [1] */
             conflict_probability: number;
+            /** @description That noise alone leaves as much over, on drives that were held out of the best explanation [1] */
+            held_out_probability?: number;
             /** @description What was found */
             effects: {
                 name: string;
