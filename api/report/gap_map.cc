@@ -31,8 +31,8 @@ struct Level {
   const char* words;
 };
 // As those of slip on a map of routes: apart by lightness as well.
-constexpr std::array kLevels{Level{1.25, "#1a9850", "as the noise (below 1.25)"},
-                             Level{1.75, "#a6d96a", "1.25 to 1.75"}, Level{2.5, "#fdae61", "1.75 to 2.5"},
+constexpr std::array kLevels{Level{1.25, "#2c7bb6", "as the noise (below 1.25)"},
+                             Level{1.75, "#abd9e9", "1.25 to 1.75"}, Level{2.5, "#fdae61", "1.75 to 2.5"},
                              Level{4.0, "#d7191c", "2.5 to 4"},
                              Level{1e300, "#67001f", "above 4 deviations"}};
 

@@ -36,13 +36,13 @@ struct ValueColour {
 };
 // Green to dark red, apart from each other for colour-blind eyes by lightness as well.
 constexpr std::array kSlipColours{
-    ValueColour{0.1, "#1a9850", "slip below 0.1"}, ValueColour{0.2, "#a6d96a", "0.1 to 0.2"},
+    ValueColour{0.1, "#2c7bb6", "slip below 0.1"}, ValueColour{0.2, "#abd9e9", "0.1 to 0.2"},
     ValueColour{0.4, "#fdae61", "0.2 to 0.4"}, ValueColour{0.6, "#d7191c", "0.4 to 0.6"},
     ValueColour{10.0, "#67001f", "above 0.6"}};
 // Of the stops and embeddings that are expected on a stretch.
 constexpr std::array kOutcomeColours{
-    ValueColour{0.001, "#1a9850", "stops or embeddings below 0.001"},
-    ValueColour{0.01, "#a6d96a", "0.001 to 0.01"}, ValueColour{0.1, "#fdae61", "0.01 to 0.1"},
+    ValueColour{0.001, "#2c7bb6", "stops or embeddings below 0.001"},
+    ValueColour{0.01, "#abd9e9", "0.001 to 0.01"}, ValueColour{0.1, "#fdae61", "0.01 to 0.1"},
     ValueColour{0.5, "#d7191c", "0.1 to 0.5"}, ValueColour{1e9, "#67001f", "above 0.5"}};
 constexpr std::array kSoilColours{"#377eb8", "#984ea3", "#a65628", "#f781bf",
                                   "#66c2a5", "#e5c494", "#8da0cb", "#ffd92f"};
