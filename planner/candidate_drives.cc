@@ -77,8 +77,9 @@ void CandidateDrives::look(const Candidate& candidate, Progress& progress) {
 }
 
 Result<void> CandidateDrives::drive(const Candidate& candidate, Progress& progress) {
-  const auto looked_at = std::find_if(looked_at_.begin(), looked_at_.end(),
-                                      [&](const Driven& d) { return are_same(d.motions, candidate.motions); });
+  const auto looked_at = std::find_if(looked_at_.begin(), looked_at_.end(), [&](const Driven& d) {
+    return are_same(d.motions, candidate.motions);
+  });
   Result<Driven> found = Driven();
   if (looked_at == looked_at_.end()) {
     found = simulated(candidate, progress);

@@ -19,11 +19,34 @@ constexpr int kFurthest = 3;  // of a step, in cells along an axis
 constexpr double kLeastOfGrid = 0.9;
 
 struct Step {
+  // A cell that it passes, and the part of its length there.
+  struct Part {
+    GridStep cell;
+    double length_m = 0.0;
+  };
+
   int right = 0, up = 0;
-  double length_m = 0.0, heading_rad = 0.0;
+  double heading_rad = 0.0;
   Eigen::Vector2d direction;
-  std::vector<GridStep> between;  // the cells that it passes
+  std::vector<Part> parts;
 };
+
+// From centre to centre, cut where it leaves a cell: at odd halves along either axis.
+std::vector<Step::Part> parts_of(int right, int up, double length_m) {
+  std::vector<double> cuts{0.0, 1.0};
+  for (const int size : {std::abs(right), std::abs(up)})
+    for (int k = 0; k < size; ++k) cuts.push_back((k + 0.5) / size);
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<Step::Part> parts;
+  for (std::size_t k = 1; k < cuts.size(); ++k) {
+    const double share = cuts[k] - cuts[k - 1], middle = 0.5 * (cuts[k] + cuts[k - 1]);
+    if (share > 1e-9)
+      parts.push_back(
+          {{static_cast<int>(std::lround(middle * right)), static_cast<int>(std::lround(middle * up))},
+           share * length_m});
+  }
+  return parts;
+}
 
 // Counter-clockwise.
 std::vector<Step> steps_on(const dem::GridGeometry& g) {
@@ -32,17 +55,11 @@ std::vector<Step> steps_on(const dem::GridGeometry& g) {
     for (int right = -kFurthest; right <= kFurthest; ++right) {
       if (std::gcd(right, up) != 1) continue;
       const Eigen::Vector2d way(right * g.cell_x_m, up * g.cell_y_m);
-      Step step{.right = right,
-                .up = up,
-                .length_m = way.norm(),
-                .heading_rad = std::atan2(way.y(), way.x()),
-                .direction = way.normalized(),
-                .between = {}};
-      const int most = std::max(std::abs(right), std::abs(up));
-      for (int k = 1; k < most; ++k)
-        step.between.push_back({static_cast<int>(std::lround(static_cast<double>(k * right) / most)),
-                                static_cast<int>(std::lround(static_cast<double>(k * up) / most))});
-      steps.push_back(std::move(step));
+      steps.push_back({.right = right,
+                       .up = up,
+                       .heading_rad = std::atan2(way.y(), way.x()),
+                       .direction = way.normalized(),
+                       .parts = parts_of(right, up, way.norm())});
     }
   }
   std::sort(steps.begin(), steps.end(),
@@ -57,21 +74,16 @@ double least_share_of_length(const std::vector<Step>& steps) {
   return std::cos(0.5 * widest);
 }
 
-// Of a metre over the step: of its ends, or of all cells that it passes, whichever is less.
-double per_metre_of_step(const MotionCost& cost, std::size_t from, const dem::Cell& place, const Step& step,
-                         std::size_t to) {
-  const auto in = [&](std::size_t cell) {
-    return GridSearch::per_metre_in(cost, cell, step.heading_rad, step.direction);
-  };
-  const double ends = 0.5 * (in(from) + in(to));
-  if (step.between.empty() || !(ends < kInfinity)) return ends;
-  double sum = ends;
-  for (const GridStep& at : step.between) {
-    const long long cell = cost.map().index_of(place.row - at.up, place.column + at.right);
+double cost_of_step(const MotionCost& cost, const dem::Cell& from, const Step& step) {
+  double sum = 0.0;
+  for (const Step::Part& part : step.parts) {
+    const long long cell = cost.map().index_of(from.row - part.cell.up, from.column + part.cell.right);
     if (cell < 0) return kInfinity;
-    sum += in(static_cast<std::size_t>(cell));
+    sum += part.length_m *
+           GridSearch::per_metre_in(cost, static_cast<std::size_t>(cell), step.heading_rad, step.direction);
+    if (!(sum < kInfinity)) break;
   }
-  return sum < kInfinity ? std::min(ends, sum / static_cast<double>(step.between.size() + 1)) : kInfinity;
+  return sum;
 }
 
 // Between a place and the centre of its cell, one way and the other.
@@ -102,8 +114,7 @@ double least_cost_of_leg(const MotionCost& cost, const CostField& to_go, const W
         for (const Step& step : steps) {
           const long long next = map.index_of(place.row - step.up, place.column + step.right);
           if (next < 0 || !(to_go.cost[static_cast<std::size_t>(next)] < kInfinity)) continue;
-          const double sum = reached[cell] + step.length_m * per_metre_of_step(cost, cell, place, step,
-                                                                               static_cast<std::size_t>(next));
+          const double sum = reached[cell] + cost_of_step(cost, place, step);
           if (sum < kInfinity) reach(static_cast<std::uint32_t>(next), sum);
         }
       });

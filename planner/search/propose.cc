@@ -25,8 +25,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBandWidths = 2.0;  // half width of the band around a route, in rover widths
 constexpr double kBandFactor = 1.0;  // the first round's extra cost in the band; doubles each round
 
-// The grid of a leg under one cost, with its cheapest way; where planners look that draw samples, if there are
-// any.
+// The grid of a leg under one cost, with its cheapest way; where planners look that draw samples, if there
+// are any.
 struct LegGround {
   LegGround(const MotionCost& cost, const Waypoint& from, const Waypoint& to)
       : grid(cost),
@@ -151,9 +151,8 @@ class NearProposer final : public Proposer {
         may_gain[g] = may_gain_over(cost, *grounds[g], leg, draft, before) ? 1 : 0;
       }
       if (may_gain[g] != 0 && planners_.size() > (grid_ ? 1U : 0U))
-        grounds[g]->samples.emplace(grounds[g]->grid, map_,
-                                    grounds[g]->grid.cost_to_come(from.x_m, from.y_m), grounds[g]->to_go,
-                                    from.x_m, from.y_m);
+        grounds[g]->samples.emplace(grounds[g]->grid, map_, grounds[g]->grid.cost_to_come(from.x_m, from.y_m),
+                                    grounds[g]->to_go, from.x_m, from.y_m);
     });
     if (progress_.cancelled()) return;
     if (is_first) {
@@ -185,8 +184,10 @@ class NearProposer final : public Proposer {
     if (!problem_.planners.empty() || !draft.guided.found) return true;
     const std::vector<Motion>& all = draft.guided.motions;
     const std::vector<Motion> motions(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
-    const double least = least_cost_of_leg(cost, ground.to_go, places_[leg], places_[leg + 1]);
-    return fine_cost(cost, motions) > (1.0 + kTiedShare) * least;
+    const double enough = fine_cost(cost, motions) / (1.0 + kTiedShare);
+    // The bound is less than the grid's optimum: where that is too little there is no need to search for it.
+    return enough > ground.way.optimum() ||
+           enough > least_cost_of_leg(cost, ground.to_go, places_[leg], places_[leg + 1]);
   }
 
   const NamedPlanner& planner_of(std::size_t draft) const { return planners_[draft % planners_.size()]; }

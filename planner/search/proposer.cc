@@ -56,8 +56,7 @@ std::vector<Guide> Proposer::guides_of_profiles() const {
     const double tail = profile.by_mean ? 1.0 : problem_.ranking.ranked_tail();
     guides.push_back(
         {std::string(profile.name),
-         is_asked ? asked_
-                  : MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
+         is_asked ? asked_ : MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
          penalties(0.0)});
   }
   return guides;

@@ -28,8 +28,8 @@ class Differences {
   std::vector<std::vector<double>> shared_;
 };
 
-// Costs whose draws do not tell them apart are tied where they differ by no more than this share. So no search
-// is begun that could not gain more.
+// Costs whose draws do not tell them apart are tied where they differ by no more than this share. So no
+// search is begun that could not gain more.
 constexpr double kTiedShare = 0.03;
 
 // A route that is dearer than the cheapest by no more than this share may stand first in its place, where

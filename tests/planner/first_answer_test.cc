@@ -49,8 +49,8 @@ TEST(FirstAnswer, HasAVerdictBeforeRoutesAreChosenAndIsFollowedByBetterOnesAlone
   EXPECT_GE(progress.before_choosing, 1);
   for (std::size_t k = 0; k < progress.routes.size(); ++k) {
     EXPECT_FALSE(progress.routes[k].verdict.empty()) << k;
-    if (k > 0 && progress.routes[k].verdict == progress.routes[k - 1].verdict)
-      EXPECT_LE(progress.routes[k].cost, progress.routes[k - 1].cost);
+    if (k == 0 || progress.routes[k].verdict != progress.routes[k - 1].verdict) continue;
+    EXPECT_LE(progress.routes[k].cost, progress.routes[k - 1].cost);
   }
 }
 

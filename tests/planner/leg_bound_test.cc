@@ -27,8 +27,8 @@ std::string hills(std::uint64_t seed, double steps, bool with_wall) {
   };
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
-      char what = static_cast<char>('0' + std::lround(0.25 * steps * (2.0 + wave(0, row, column) +
-                                                                      wave(1, row, column))));
+      char what = static_cast<char>(
+          '0' + std::lround(0.25 * steps * (2.0 + wave(0, row, column) + wave(1, row, column))));
       if (with_wall && column == 6 && row > 2 && row < 9) what = '#';
       if (row == 3 && column == 2) what = 'S';
       if (row == 8 && column == 9) what = 'G';
@@ -71,10 +71,9 @@ struct Ground {
       for (std::size_t to = 0; to < map.cells(); ++to) {
         if (left[to]) continue;
         const Eigen::Vector2d way = map.centre_m(to) - from;
-        const double sum =
-            reached[at] + cost.of(straight({from.x(), from.y(), std::atan2(way.y(), way.x())},
-                                           map.centre_m(to).x(), map.centre_m(to).y()),
-                                  step);
+        const double sum = reached[at] + cost.of(straight({from.x(), from.y(), std::atan2(way.y(), way.x())},
+                                                          map.centre_m(to).x(), map.centre_m(to).y()),
+                                                 step);
         if (sum < reached[to]) reached[to] = sum;
       }
     }
