@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two programs in turn at one plan of some 300 m with three routes on the Gale legend: seconds of the processor, and their ratio.
 
-usage: plan_pairs.py OLD NEW SOURCE_DIR [--pairs 3] [-- FLAGS OF plan]
+usage: plan_pairs.py [--pairs 3] OLD NEW SOURCE_DIR [FLAGS OF plan]
 """
 import argparse
 import os
@@ -16,7 +16,7 @@ parser.add_argument("old")
 parser.add_argument("new")
 parser.add_argument("source")
 parser.add_argument("--pairs", type=int, default=3)
-parser.add_argument("flags", nargs="*")
+parser.add_argument("flags", nargs=argparse.REMAINDER)
 options = parser.parse_args()
 
 
