@@ -103,7 +103,7 @@ struct SearchOptions {
   double max_behind = 50.0;
   // Log evidence behind the best, from which a fit is not started again at what was believed of the soils,
   // and no better place of an effect is looked for beside its own scatter: 12 % of it are believed at least.
-  double out_of_reach = 100.0;
+  double out_of_reach = 500.0;
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's. At 0.4 a wheel that drags at half its usual size
   // lost its name.
