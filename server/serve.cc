@@ -182,6 +182,20 @@ void log_answer(const AnsweredRequest& answered) {
              {"seconds", answered.seconds}});
 }
 
+// What SIGHUP asks for: the file of tokens is read anew, and the audit log opened anew, since a rotation has
+// moved it. What can't be read or opened leaves what was.
+void read_again(Access& access, AuditLog* audit) {
+  if (const auto tokens = access.read_again())
+    log_event(LogLevel::kInfo, "tokens_read", {{"tokens", static_cast<double>(*tokens)}});
+  else
+    log_event(LogLevel::kError, "tokens_not_read",
+              {{"reason", in_one_line(tokens.error())},
+               {"remedy", "the tokens that were known hold: mend the file and send SIGHUP again"}});
+  if (audit == nullptr) return;
+  if (const auto opened = audit->open_again(); !opened)
+    log_event(LogLevel::kError, "audit_log_not_opened", {{"reason", opened.error().detail}});
+}
+
 }  // namespace
 
 int serve(const ServeOptions& given) {
@@ -189,7 +203,7 @@ int serve(const ServeOptions& given) {
   const auto place = api::without_secrets(given.jobs);
   if (!place) return refuse(place.error());
   options.jobs = *place;
-  const sigset_t signals = block_ending_signals();
+  const sigset_t signals = block_signals({SIGINT, SIGTERM, SIGHUP});
   set_log(options.log_json ? LogForm::kJson : LogForm::kText, LogLevel::kInfo);
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
@@ -198,8 +212,15 @@ int serve(const ServeOptions& given) {
   HttpOptions http = http_options(options);
   const auto access = Access::open({.tokens = options.tokens, .max_requests_per_s = options.requests_per_s});
   if (!access) return refuse(access.error());
-  http.admit = [&access](HttpRequest& request) -> std::optional<HttpResponse> {
-    const auto admitted = (*access)->admit(request);
+  std::unique_ptr<AuditLog> audit;
+  if (!options.audit.empty()) {
+    auto opened = AuditLog::open(options.audit);
+    if (!opened) return refuse(opened.error());
+    audit = *std::move(opened);
+  }
+  http.admit = [&access, &audit](HttpRequest& request) -> std::optional<HttpResponse> {
+    auto admitted = (*access)->admit(request);
+    if (admitted && audit) admitted = audit->can_record(request.method);
     if (admitted) return std::nullopt;
     return problem_response(admitted.error(), &request);
   };
@@ -207,12 +228,6 @@ int serve(const ServeOptions& given) {
                               const std::optional<std::string>& authorization) {
     return !(*access)->refuses(method, path, authorization);
   };
-  std::optional<AuditLog> audit;
-  if (!options.audit.empty()) {
-    auto opened = AuditLog::open(options.audit);
-    if (!opened) return refuse(opened.error());
-    audit = *std::move(opened);
-  }
   http.answered = [&, every = options.access_log](const AnsweredRequest& answered) {
     metrics.count_answer(answered);
     if (audit) audit->record(answered);
@@ -248,7 +263,7 @@ int serve(const ServeOptions& given) {
   if (workers)
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
-  std::vector<Route> routes = api_routes(**service, runner);
+  std::vector<Route> routes = api_routes(**service, runner, {.override_persons = options.override_persons});
   const Operation operation{
       .metrics = metrics,
       .store = *jobs->store,
@@ -263,8 +278,8 @@ int serve(const ServeOptions& given) {
                            host_in_url(options.address), *port,
                            options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
-  int signal = 0;
-  sigwait(&signals, &signal);
+  for (int signal = SIGHUP; signal == SIGHUP;)
+    if (sigwait(&signals, &signal) == 0 && signal == SIGHUP) read_again(**access, audit.get());
   std::cout << "stopping: running jobs go back to the store\n" << std::flush;
   if (workers) workers->stop();
   runner.stop();

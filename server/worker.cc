@@ -100,7 +100,8 @@ int work(const WorkerOptions& given) {
   const auto place = api::without_secrets(given.jobs);
   if (!place) return refuse(place.error());
   options.jobs = *place;
-  const sigset_t ending = block_ending_signals();
+  const sigset_t ending = block_signals({SIGINT, SIGTERM});
+  std::signal(SIGHUP, SIG_IGN);  // it has nothing to read again
   const FileDescriptor signals(::signalfd(-1, &ending, SFD_CLOEXEC));
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
