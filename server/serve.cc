@@ -12,6 +12,7 @@
 #include "api/jobs/job_runner.h"
 #include "api/jobs/open_job_store.h"
 #include "api/service.h"
+#include "core/utc.h"
 #include "core/version.h"
 #include "server/cli/commands/serve_command.h"
 #include "server/cli/inquiry/command_parts.h"
@@ -25,6 +26,7 @@
 #include "server/operations/audit_log.h"
 #include "server/operations/log.h"
 #include "server/operations/metrics.h"
+#include "server/operations/readiness.h"
 #include "server/routes/dashboard_routes.h"
 #include "server/routes/operator_routes.h"
 #include "server/routes/responses.h"
@@ -85,6 +87,7 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   auto store = open_store(path, options.artefacts, api::StoreCheck::kWhole);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
+  distrust_clock(*jobs.store, *jobs.runner.kept);
   if (path.empty()) return jobs;
   // A process takes back at its start what one of its name left running when it died. One name for all would
   // take the jobs of a service that lives: only the holder of the lock works under the shared name.
@@ -182,6 +185,40 @@ void log_answer(const AnsweredRequest& answered) {
              {"seconds", answered.seconds}});
 }
 
+// What the service needs to take work. The store and the workers must outlive the checks.
+std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::JobStore& store,
+                                             const std::optional<WorkerProcesses>& workers) {
+  const auto folder_of = [](const std::string& file) {
+    if (file.empty() || api::is_database(file)) return std::string();
+    const auto folder = std::filesystem::path(file).parent_path();
+    return folder.empty() ? std::string(".") : folder.string();
+  };
+  return {[&store]() -> std::optional<std::string> {
+            const auto read = store.list(1);
+            return read ? std::nullopt
+                        : std::optional("the jobs' store does not answer: " + read.error().detail);
+          },
+          [&workers] { return workers ? workers->shortage() : std::nullopt; },
+          disk_check({folder_of(options.jobs), options.uploads.folder(options.jobs), options.artefacts.folder,
+                      folder_of(options.audit)})};
+}
+
+// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
+// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
+void distrust_clock(api::JobStore& store, api::Retention& kept) {
+  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
+  const auto last = store.list(1);
+  if (!last || last->empty()) return;
+  const std::int64_t since = now_ms() - last->front().created_ms;
+  if (since <= kLongest_ms) return;
+  kept.most_age_ms = 1000 * 365 * kMsPerDay;
+  log_event(LogLevel::kWarning, "clock_far_ahead",
+            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
+             {"remedy",
+              "no job is forgotten for its age until the next start: set the clock right before it, "
+              "where it is wrong"}});
+}
+
 // What SIGHUP asks for: the file of tokens is read anew, and the audit log opened anew, since a rotation has
 // moved it. What can't be read or opened leaves what was.
 void read_again(Access& access, AuditLog* audit) {
@@ -264,11 +301,11 @@ int serve(const ServeOptions& given) {
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
   std::vector<Route> routes = api_routes(**service, runner, {.override_persons = options.override_persons});
-  const Operation operation{
-      .metrics = metrics,
-      .store = *jobs->store,
-      .http = [&] { return server->counters(); },
-      .missing_workers = [&] { return workers ? workers->wanted() - workers->running() : 0; }};
+  const Readiness readiness(readiness_checks(options, *jobs->store, workers));
+  const Operation operation{.metrics = metrics,
+                            .store = *jobs->store,
+                            .http = [&] { return server->counters(); },
+                            .not_ready = [&] { return readiness.reason(); }};
   for (Route& route : operator_routes(operation)) routes.push_back(std::move(route));
   for (Route& route : dashboard_routes()) routes.push_back(std::move(route));
   server.emplace(http, std::move(routes));
