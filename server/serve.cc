@@ -67,6 +67,22 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
   return workers;
 }
 
+// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
+// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
+void distrust_clock(api::JobStore& store, api::Retention& kept) {
+  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
+  const auto last = store.list(1);
+  if (!last || last->empty()) return;
+  const std::int64_t since = now_ms() - last->front().created_ms;
+  if (since <= kLongest_ms) return;
+  kept.most_age_ms = 1000 * 365 * kMsPerDay;
+  log_event(LogLevel::kWarning, "clock_far_ahead",
+            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
+             {"remedy",
+              "no job is forgotten for its age until the next start: set the clock right before it, "
+              "where it is wrong"}});
+}
+
 Result<Jobs> open_jobs(const ServeOptions& options) {
   const std::string& path = options.jobs;
   Jobs jobs;
@@ -201,22 +217,6 @@ std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::J
           [&workers] { return workers ? workers->shortage() : std::nullopt; },
           disk_check({folder_of(options.jobs), options.uploads.folder(options.jobs), options.artefacts.folder,
                       folder_of(options.audit)})};
-}
-
-// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
-// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
-void distrust_clock(api::JobStore& store, api::Retention& kept) {
-  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
-  const auto last = store.list(1);
-  if (!last || last->empty()) return;
-  const std::int64_t since = now_ms() - last->front().created_ms;
-  if (since <= kLongest_ms) return;
-  kept.most_age_ms = 1000 * 365 * kMsPerDay;
-  log_event(LogLevel::kWarning, "clock_far_ahead",
-            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
-             {"remedy",
-              "no job is forgotten for its age until the next start: set the clock right before it, "
-              "where it is wrong"}});
 }
 
 // What SIGHUP asks for: the file of tokens is read anew, and the audit log opened anew, since a rotation has
