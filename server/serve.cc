@@ -214,9 +214,10 @@ std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::J
             return read ? std::nullopt
                         : std::optional("the jobs' store does not answer: " + read.error().detail);
           },
-          [&workers] { return workers ? workers->shortage() : std::nullopt; },
+          // Before the workers, which can't start on a full disk.
           disk_check({folder_of(options.jobs), options.uploads.folder(options.jobs), options.artefacts.folder,
-                      folder_of(options.audit)})};
+                      folder_of(options.audit)}),
+          [&workers] { return workers ? workers->shortage() : std::nullopt; }};
 }
 
 // What SIGHUP asks for: the file of tokens is read anew, and the audit log opened anew, since a rotation has

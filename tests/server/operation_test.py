@@ -202,6 +202,7 @@ class FullDisk(unittest.TestCase):
             folder = pathlib.Path(made)
             server = Server(folder, "--audit", str(folder / "audit.jsonl"))
             try:
+                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
                 location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
                 filling = folder / "filling"
                 with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
