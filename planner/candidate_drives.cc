@@ -33,6 +33,15 @@ bool is_copy(const Proposal& proposal, std::size_t i, const std::vector<std::siz
   });
 }
 
+bool are_same(const std::vector<Motion>& some, const std::vector<Motion>& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const Motion& a, const Motion& b) {
+                      return a.from == b.from && a.to == b.to && a.length_m == b.length_m &&
+                             a.curvature_1_m == b.curvature_1_m && a.first_turn_rad == b.first_turn_rad &&
+                             a.last_turn_rad == b.last_turn_rad;
+                    });
+}
+
 }  // namespace
 
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare) {
@@ -63,36 +72,62 @@ bool CandidateDrives::enough() const {
   return differing(ranked(those_that_may_go())).size() >= static_cast<std::size_t>(problem_.routes);
 }
 
+void CandidateDrives::look(const Candidate& candidate, Progress& progress) {
+  if (auto drive = simulated(candidate, progress)) looked_at_.push_back(*std::move(drive));
+}
+
 Result<void> CandidateDrives::drive(const Candidate& candidate, Progress& progress) {
+  const auto looked_at = std::find_if(looked_at_.begin(), looked_at_.end(), [&](const Driven& d) {
+    return are_same(d.motions, candidate.motions);
+  });
+  Result<Driven> found = Driven();
+  if (looked_at == looked_at_.end()) {
+    found = simulated(candidate, progress);
+  } else {
+    found = std::move(*looked_at);
+    looked_at_.erase(looked_at);
+  }
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the plan was cancelled");
+  if (!found) {
+    // Mostly a wheel that the body's circle does not cover met a missing cell.
+    unpredicted_.push_back(found.error());
+    return {};
+  }
+  if (found->in_keep_out) {
+    in_keep_out_.push_back(*found->in_keep_out);
+    return {};
+  }
+  found->route.planner = candidate.planner;
+  found->route.profile = candidate.profile;
+  const DriveSteps& commands = found->route.commands;
+  differences_.add(centreline(command_motions(commands.start, commands.steps), kLineSpacing_m));
+  driven_.push_back(*std::move(found));
+  return {};
+}
+
+Result<CandidateDrives::Driven> CandidateDrives::simulated(const Candidate& candidate, Progress& progress) {
   Driven drive;
-  drive.route.planner = candidate.planner;
-  drive.route.profile = candidate.profile;
+  drive.motions = candidate.motions;
   drive.route.commands = route_commands(problem_, candidate.motions);
   const auto motions = command_motions(drive.route.commands.start, drive.route.commands.steps);
   drive.stations = route_stations(motions, sim::max_station_spacing_m(*problem_.rover));
   drive.length_m = drive.stations.back().distance_m;
-  if (const auto pose = inside_keep_out(motions, drive.stations)) {
-    in_keep_out_.push_back(*pose);
-    return {};
-  }
+  drive.in_keep_out = inside_keep_out(motions, drive.stations);
+  if (drive.in_keep_out) return drive;
   sim::RiskOptions risk = risk_of(drive);
   if (problem_.ranking_draws > 0) risk.draws = std::min(risk.draws, problem_.ranking_draws);
   risk.max_draws = 0;
   Result<sim::DrivePrediction> prediction = predict(drive, risk, progress);
-  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the plan was cancelled");
-  if (!prediction) {
-    // Mostly a wheel that the body's circle does not cover met a missing cell.
-    unpredicted_.push_back(prediction.error());
-    return {};
-  }
+  if (!prediction) return fail(prediction.error());
   drive.route.prediction = std::move(*prediction);
   judge(problem_, drive.route);
-  if (std::none_of(driven_.begin(), driven_.end(),
-                   [&](const Driven& other) { return ranks_before(other.route, drive.route); }))
+  const auto is_better = [&](const Driven& other) {
+    return !other.in_keep_out && ranks_before(other.route, drive.route);
+  };
+  if (std::none_of(driven_.begin(), driven_.end(), is_better) &&
+      std::none_of(looked_at_.begin(), looked_at_.end(), is_better))
     tell_found(progress, motions, drive.route.cost, describe(drive.route.verdict()));
-  differences_.add(centreline(motions, kLineSpacing_m));
-  driven_.push_back(std::move(drive));
-  return {};
+  return drive;
 }
 
 Result<std::vector<Route>> CandidateDrives::choose(Progress& progress) {

@@ -30,6 +30,10 @@ class CandidateDrives {
   CandidateDrives(const PlanProblem& problem, const TerrainGround& ground, const KeepOut& keep_out)
       : problem_(problem), ground_(ground), keep_out_(keep_out), differences_(problem.rover->body_width_m) {}
 
+  // Simulates a candidate before there is a choice and tells of it with its verdict; drive() takes it from
+  // here. What it meets is drive()'s to say.
+  void look(const Candidate& candidate, Progress& progress);
+
   // Simulates one candidate with the first draws. Errors: cancelled.
   Result<void> drive(const Candidate& candidate, Progress& progress);
 
@@ -55,8 +59,12 @@ class CandidateDrives {
     std::vector<sim::PathStation> stations;
     double length_m = 0.0;
     sim::DrawsSoFar draws = nullptr;
+    std::optional<Pose2> in_keep_out = {};  // then it is not simulated
+    std::vector<Motion> motions = {};       // of the candidate
   };
 
+  // With the first draws. Tells of it where none that was simulated is better.
+  Result<Driven> simulated(const Candidate& candidate, Progress& progress);
   std::optional<Pose2> inside_keep_out(const std::vector<Motion>& motions,
                                        const std::vector<sim::PathStation>& stations) const;
   // The options of the final prediction, which are those of a check.
@@ -74,6 +82,7 @@ class CandidateDrives {
   const TerrainGround& ground_;
   const KeepOut& keep_out_;
   std::vector<Driven> driven_;
+  std::vector<Driven> looked_at_;
   Differences differences_;  // of the driven
   std::vector<Error> unpredicted_;
   std::vector<Pose2> in_keep_out_;

@@ -108,7 +108,11 @@ class Planning {
 
   Proposal propose(const GroundTables& tables) {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
-    if (!is_far_) return propose_routes(problem_, planners_, *map_, tables, stage);
+    if (!is_far_)
+      return propose_routes(problem_, planners_, *map_, tables, stage, [this](const Candidate& candidate) {
+        StageProgress first(progress_, "proposing routes", 0.1, 0.1);
+        drives_.look(candidate, first);
+      });
     FarProposal far = propose_far_routes(problem_, planners_, keep_out_, tables, stage);
     // What the map has beyond the terrain decides where there is no way, or the best comes to its edge.
     needs_wider_terrain_ = !problem_.terrain_is_whole_map &&

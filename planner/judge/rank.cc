@@ -11,12 +11,11 @@
 #include "planner/judge/drawn_cost.h"
 #include "planner/judge/drive_verdict.h"
 #include "planner/problem/weights.h"
+#include "planner/search/select_routes.h"
 
 namespace slipway::planner {
 namespace {
 
-// Costs whose draws do not tell them apart are tied where they differ by no more than this.
-constexpr double kTiedShare = 0.03;
 constexpr double kMin_m = 0.5;  // differences in length below this are not worth words
 
 // "a 14 deg climb", "a 9 deg descent", "a 12 deg side slope", "ground within 2 deg of level".

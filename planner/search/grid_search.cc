@@ -14,8 +14,13 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 }  // namespace
 
 double GridSearch::heading_rad(int step) {
-  return std::atan2(kGridDirections[static_cast<std::size_t>(step)].up,
-                    kGridDirections[static_cast<std::size_t>(step)].right);
+  static const std::array<double, kGridSteps> all = [] {
+    std::array<double, kGridSteps> made;
+    for (std::size_t k = 0; k < kGridSteps; ++k)
+      made[k] = std::atan2(kGridDirections[k].up, kGridDirections[k].right);
+    return made;
+  }();
+  return all[static_cast<std::size_t>(step)];
 }
 
 const Eigen::Vector2d& GridSearch::direction(int step) {
@@ -47,15 +52,17 @@ GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()) {
           found_per_metre(cost, i, k);
 }
 
-float GridSearch::found_per_metre(const MotionCost& cost, std::size_t cell, int step) const {
-  const Passage passage = map_.cell(cell).passage;
+double GridSearch::per_metre_in(const MotionCost& cost, std::size_t cell, double heading_rad,
+                                const Eigen::Vector2d& direction) {
+  const TraverseMap& map = cost.map();
+  const Passage passage = map.cell(cell).passage;
   bool open = passage == Passage::kFree;
   if (passage == Passage::kNearKeepOut) {
-    const Eigen::Vector2d centre = map_.centre_m(cell);
-    open = map_.may_stand({centre.x(), centre.y(), heading_rad(step)});
+    const Eigen::Vector2d centre = map.centre_m(cell);
+    open = map.may_stand({centre.x(), centre.y(), heading_rad});
   }
-  return open ? static_cast<float>(cost.per_metre_in_cell(cell, direction(step).x(), direction(step).y()))
-              : kInfinity;
+  return open ? cost.per_metre_in_cell(cell, direction.x(), direction.y())
+              : std::numeric_limits<double>::infinity();
 }
 
 bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) const {

@@ -80,6 +80,10 @@ class GridSearch {
   static double heading_rad(int step);
   // The same as a vector of length 1.
   static const Eigen::Vector2d& direction(int step);
+  // Of a metre in a cell in a direction, of which the heading is the same; infinite where the body may not
+  // stand so at its centre.
+  static double per_metre_in(const MotionCost& cost, std::size_t cell, double heading_rad,
+                             const Eigen::Vector2d& direction);
   // Half the length of each step.
   static std::array<float, kGridSteps> half_lengths_m(const dem::GridGeometry& geometry);
 
@@ -89,7 +93,9 @@ class GridSearch {
   // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
   bool clear_of_keep_outs(const dem::Cell& from, int step) const;
 
-  float found_per_metre(const MotionCost& cost, std::size_t cell, int step) const;
+  static float found_per_metre(const MotionCost& cost, std::size_t cell, int step) {
+    return static_cast<float>(per_metre_in(cost, cell, heading_rad(step), direction(step)));
+  }
   float per_metre(std::size_t cell, int step) const {
     return cost_ ? found_per_metre(*cost_, cell, step)
                  : per_metre_[cell * static_cast<std::size_t>(kGridSteps) + static_cast<std::size_t>(step)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel_for.h"
+#include "planner/search/slip_table_cache.h"
 #include "sim/prediction/likely_soils.h"
 
 namespace slipway::planner {
@@ -37,6 +38,19 @@ std::vector<bool> soils_in_use(const PlanProblem& problem, const Progress& progr
   return used;
 }
 
+// Kept between the plans of a process.
+sim::SlipTable table_of(const PlanProblem& problem, const sim::Soil& soil, double limit_rad,
+                        double step_rad) {
+  const SlipTableKey key{.rover = *problem.rover,
+                         .gravity_m_s2 = problem.gravity_m_s2,
+                         .soil = soil,
+                         .limit_rad = limit_rad,
+                         .step_rad = step_rad,
+                         .conditions = problem.conditions};
+  static SlipTableCache cache;
+  return cache.get(key);
+}
+
 // The tables of the soils that each kind of ground in use may have, see GroundTable; parallel over all of
 // them.
 std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
@@ -59,8 +73,7 @@ std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
   std::vector<std::optional<sim::SlipTable>> tables(jobs.size());
   parallel_for(jobs.size(), problem.threads, [&](std::size_t i) {
     if (progress.cancelled()) return;
-    tables[i].emplace(*problem.rover, problem.gravity_m_s2, jobs[i].soil.soil, limit_rad,
-                      limit_rad / kLikelyNodesToLimit, problem.conditions);
+    tables[i].emplace(table_of(problem, jobs[i].soil.soil, limit_rad, limit_rad / kLikelyNodesToLimit));
   });
   std::vector<std::vector<LikelyTable>> likely(beliefs.size());
   if (progress.cancelled()) return likely;
@@ -88,8 +101,7 @@ GroundTables build_ground_tables(const PlanProblem& problem, const Progress& pro
     if (!used[i / 2] || progress.cancelled()) return;
     const sim::SoilDistribution& of = *beliefs[i / 2];
     const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
-    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
-                      problem.conditions);
+    tables[i].emplace(table_of(problem, soil, limit, limit / kNodesToLimit));
   });
   std::vector<std::vector<LikelyTable>> likely = likely_tables(problem, beliefs, used, limit, progress);
   GroundTables all;

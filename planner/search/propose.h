@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,12 +44,19 @@ struct Proposal {
   std::vector<std::size_t> different(std::size_t wanted) const;
 };
 
+// Is told of the grid's cheapest way and of the straight line, where they can be driven, before other
+// planners begin. They are candidates of the proposal too.
+using FirstLook = std::function<void(const Candidate&)>;
+
 // Searches each profile with each planner that the problem names (none: the default set of `planners`, the
 // grid and the straight line), smoothed under the profile and under what the request asks for, then in rounds
 // with the bands around the routes so far made dear, until `problem.routes` routes differ or the rounds are
-// used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where there is no way
-// (then grid_optimum is infinite) and where it was cancelled.
+// used up. In the default set the others are begun where they may gain more over the grid's way than routes
+// that are tied differ by (least_cost_of_leg()), or where too few routes differ. Searches run in parallel;
+// the outcome doesn't depend on it. Empty candidates where there is no way (then grid_optimum is infinite)
+// and where it was cancelled.
 Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
-                        const TraverseMap& map, const GroundTables& tables, Progress& progress);
+                        const TraverseMap& map, const GroundTables& tables, Progress& progress,
+                        const FirstLook& first_look = {});
 
 }  // namespace slipway::planner

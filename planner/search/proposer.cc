@@ -40,19 +40,26 @@ Proposer::Proposer(const PlanProblem& problem, const TraverseMap& map, const Gro
       proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {}
 
 void Proposer::propose() {
-  std::vector<Guide> guides;
-  for (const Profile& profile : profiles(problem_.ranking)) {
-    const double tail = profile.by_mean ? 1.0 : problem_.ranking.ranked_tail();
-    guides.push_back({std::string(profile.name),
-                      MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
-                      penalties(0.0)});
-  }
+  std::vector<Guide> guides = guides_of_profiles();
   search(guides, 0);
   for (int round = 1; round <= kMaxRounds && found_any() && !enough() && !progress_.cancelled(); ++round) {
     guides.clear();
     guides.push_back({"apart_from_the_others", asked_, penalties(std::pow(2.0, round - 1))});
     search(guides, round);
   }
+}
+
+std::vector<Guide> Proposer::guides_of_profiles() const {
+  std::vector<Guide> guides;
+  for (const Profile& profile : profiles(problem_.ranking)) {
+    const bool is_asked = profile.changed.empty() && !profile.by_mean;
+    const double tail = profile.by_mean ? 1.0 : problem_.ranking.ranked_tail();
+    guides.push_back(
+        {std::string(profile.name),
+         is_asked ? asked_ : MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
+         penalties(0.0)});
+  }
+  return guides;
 }
 
 std::vector<Eigen::Vector2d> Proposer::places_of_bands(double spacing_m, double reach_m) const {
@@ -67,8 +74,8 @@ void Proposer::keep(const MotionCost& asked, Candidate found) {
   std::vector<Candidate>& candidates = proposal_.candidates;
   found.cost = fine_cost(asked, found.motions);
   if (std::isfinite(found.cost)) {
-    if (std::none_of(candidates.begin(), candidates.end(),
-                     [&](const Candidate& other) { return other.cost <= found.cost; }))
+    if (tells_unjudged_ && std::none_of(candidates.begin(), candidates.end(),
+                                        [&](const Candidate& other) { return other.cost <= found.cost; }))
       tell_found(progress_, found.motions, found.cost);
     proposal_.differences.add(centreline(found.motions, kLineSpacing_m));
     candidates.push_back(std::move(found));

@@ -55,6 +55,9 @@ class Proposer {
   // How much more a metre costs, by its place: in the bands `factor` times what it does in the first round.
   virtual std::vector<float> penalties(double factor) const = 0;
 
+  // The profiles under the request's ranking: what round 0 searches.
+  std::vector<Guide> guides_of_profiles() const;
+  bool enough() const { return proposal_.different(wanted()).size() >= wanted(); }
   // Places along the routes that differ so far, without those near the places that all routes share.
   std::vector<Eigen::Vector2d> places_of_bands(double spacing_m, double reach_m) const;
   // As a candidate, where its cost under the request's own objective is finite.
@@ -75,10 +78,10 @@ class Proposer {
   const MotionCost asked_;
   std::vector<NamedPlanner> planners_;
   Proposal proposal_;
+  bool tells_unjudged_ = true;  // of the best candidate so far; a judged one is not followed by others
 
  private:
   std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
-  bool enough() const { return proposal_.different(wanted()).size() >= wanted(); }
 };
 
 }  // namespace slipway::planner

@@ -28,6 +28,10 @@ class Differences {
   std::vector<std::vector<double>> shared_;
 };
 
+// Costs whose draws do not tell them apart are tied where they differ by no more than this share. So no
+// search is begun that could not gain more.
+constexpr double kTiedShare = 0.03;
+
 // A route that is dearer than the cheapest by no more than this share may stand first in its place, where
 // more routes differ from it.
 constexpr double kAsGoodAsBest = 0.01;
