@@ -12,6 +12,7 @@
 #include "api/jobs/job_runner.h"
 #include "api/jobs/open_job_store.h"
 #include "api/service.h"
+#include "core/utc.h"
 #include "core/version.h"
 #include "server/cli/commands/serve_command.h"
 #include "server/cli/inquiry/command_parts.h"
@@ -25,6 +26,7 @@
 #include "server/operations/audit_log.h"
 #include "server/operations/log.h"
 #include "server/operations/metrics.h"
+#include "server/operations/readiness.h"
 #include "server/routes/dashboard_routes.h"
 #include "server/routes/operator_routes.h"
 #include "server/routes/responses.h"
@@ -65,6 +67,22 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
   return workers;
 }
 
+// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
+// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
+void distrust_clock(api::JobStore& store, api::Retention& kept) {
+  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
+  const auto last = store.list(1);
+  if (!last || last->empty()) return;
+  const std::int64_t since = now_ms() - last->front().created_ms;
+  if (since <= kLongest_ms) return;
+  kept.most_age_ms = 1000 * 365 * kMsPerDay;
+  log_event(LogLevel::kWarning, "clock_far_ahead",
+            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
+             {"remedy",
+              "no job is forgotten for its age until the next start: set the clock right before it, "
+              "where it is wrong"}});
+}
+
 Result<Jobs> open_jobs(const ServeOptions& options) {
   const std::string& path = options.jobs;
   Jobs jobs;
@@ -85,6 +103,7 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   auto store = open_store(path, options.artefacts, api::StoreCheck::kWhole);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
+  distrust_clock(*jobs.store, *jobs.runner.kept);
   if (path.empty()) return jobs;
   // A process takes back at its start what one of its name left running when it died. One name for all would
   // take the jobs of a service that lives: only the holder of the lock works under the shared name.
@@ -182,6 +201,39 @@ void log_answer(const AnsweredRequest& answered) {
              {"seconds", answered.seconds}});
 }
 
+// What the service needs to take work. The store and the workers must outlive the checks.
+std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::JobStore& store,
+                                             const std::optional<WorkerProcesses>& workers) {
+  const auto folder_of = [](const std::string& file) {
+    if (file.empty() || api::is_database(file)) return std::string();
+    const auto folder = std::filesystem::path(file).parent_path();
+    return folder.empty() ? std::string(".") : folder.string();
+  };
+  return {[&store]() -> std::optional<std::string> {
+            const auto read = store.list(1);
+            return read ? std::nullopt
+                        : std::optional("the jobs' store does not answer: " + read.error().detail);
+          },
+          // Before the workers, which can't start on a full disk.
+          disk_check({folder_of(options.jobs), options.uploads.folder(options.jobs), options.artefacts.folder,
+                      folder_of(options.audit)}),
+          [&workers] { return workers ? workers->shortage() : std::nullopt; }};
+}
+
+// What SIGHUP asks for: the file of tokens is read anew, and the audit log opened anew, since a rotation has
+// moved it. What can't be read or opened leaves what was.
+void read_again(Access& access, AuditLog* audit) {
+  if (const auto tokens = access.read_again())
+    log_event(LogLevel::kInfo, "tokens_read", {{"tokens", static_cast<double>(*tokens)}});
+  else
+    log_event(LogLevel::kError, "tokens_not_read",
+              {{"reason", in_one_line(tokens.error())},
+               {"remedy", "the tokens that were known hold: mend the file and send SIGHUP again"}});
+  if (audit == nullptr) return;
+  if (const auto opened = audit->open_again(); !opened)
+    log_event(LogLevel::kError, "audit_log_not_opened", {{"reason", opened.error().detail}});
+}
+
 }  // namespace
 
 int serve(const ServeOptions& given) {
@@ -189,7 +241,7 @@ int serve(const ServeOptions& given) {
   const auto place = api::without_secrets(given.jobs);
   if (!place) return refuse(place.error());
   options.jobs = *place;
-  const sigset_t signals = block_ending_signals();
+  const sigset_t signals = block_signals({SIGINT, SIGTERM, SIGHUP});
   set_log(options.log_json ? LogForm::kJson : LogForm::kText, LogLevel::kInfo);
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
@@ -198,8 +250,15 @@ int serve(const ServeOptions& given) {
   HttpOptions http = http_options(options);
   const auto access = Access::open({.tokens = options.tokens, .max_requests_per_s = options.requests_per_s});
   if (!access) return refuse(access.error());
-  http.admit = [&access](HttpRequest& request) -> std::optional<HttpResponse> {
-    const auto admitted = (*access)->admit(request);
+  std::unique_ptr<AuditLog> audit;
+  if (!options.audit.empty()) {
+    auto opened = AuditLog::open(options.audit);
+    if (!opened) return refuse(opened.error());
+    audit = *std::move(opened);
+  }
+  http.admit = [&access, &audit](HttpRequest& request) -> std::optional<HttpResponse> {
+    auto admitted = (*access)->admit(request);
+    if (admitted && audit) admitted = audit->can_record(request.method);
     if (admitted) return std::nullopt;
     return problem_response(admitted.error(), &request);
   };
@@ -207,12 +266,6 @@ int serve(const ServeOptions& given) {
                               const std::optional<std::string>& authorization) {
     return !(*access)->refuses(method, path, authorization);
   };
-  std::optional<AuditLog> audit;
-  if (!options.audit.empty()) {
-    auto opened = AuditLog::open(options.audit);
-    if (!opened) return refuse(opened.error());
-    audit = *std::move(opened);
-  }
   http.answered = [&, every = options.access_log](const AnsweredRequest& answered) {
     metrics.count_answer(answered);
     if (audit) audit->record(answered);
@@ -248,12 +301,12 @@ int serve(const ServeOptions& given) {
   if (workers)
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
-  std::vector<Route> routes = api_routes(**service, runner);
-  const Operation operation{
-      .metrics = metrics,
-      .store = *jobs->store,
-      .http = [&] { return server->counters(); },
-      .missing_workers = [&] { return workers ? workers->wanted() - workers->running() : 0; }};
+  std::vector<Route> routes = api_routes(**service, runner, {.override_persons = options.override_persons});
+  const Readiness readiness(readiness_checks(options, *jobs->store, workers));
+  const Operation operation{.metrics = metrics,
+                            .store = *jobs->store,
+                            .http = [&] { return server->counters(); },
+                            .not_ready = [&] { return readiness.reason(); }};
   for (Route& route : operator_routes(operation)) routes.push_back(std::move(route));
   for (Route& route : dashboard_routes()) routes.push_back(std::move(route));
   server.emplace(http, std::move(routes));
@@ -263,8 +316,8 @@ int serve(const ServeOptions& given) {
                            host_in_url(options.address), *port,
                            options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
-  int signal = 0;
-  sigwait(&signals, &signal);
+  for (int signal = SIGHUP; signal == SIGHUP;)
+    if (sigwait(&signals, &signal) == 0 && signal == SIGHUP) read_again(**access, audit.get());
   std::cout << "stopping: running jobs go back to the store\n" << std::flush;
   if (workers) workers->stop();
   runner.stop();

@@ -1,16 +1,15 @@
 #pragma once
 
 #include <csignal>
+#include <initializer_list>
 
 namespace slipway::server {
 
-// Blocks the signals that end the program, so that every thread started later leaves them to sigwait() or a
-// signalfd.
-inline sigset_t block_ending_signals() {
+// Blocks these signals, so that every thread started later leaves them to sigwait() or a signalfd.
+inline sigset_t block_signals(std::initializer_list<int> those) {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int signal : those) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   return signals;

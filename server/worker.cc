@@ -100,7 +100,8 @@ int work(const WorkerOptions& given) {
   const auto place = api::without_secrets(given.jobs);
   if (!place) return refuse(place.error());
   options.jobs = *place;
-  const sigset_t ending = block_ending_signals();
+  const sigset_t ending = block_signals({SIGINT, SIGTERM});
+  std::signal(SIGHUP, SIG_IGN);  // it has nothing to read again
   const FileDescriptor signals(::signalfd(-1, &ending, SFD_CLOEXEC));
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
@@ -131,6 +132,7 @@ int work(const WorkerOptions& given) {
                         api::service_work_in_parts(**service));
   if (options.bell) runner.on_change(ring_at_the_output);
   if (const auto started = runner.start(); !started) return refuse(started.error());
+  if (options.bell) ring_at_the_output();  // it has started
   if (!wait_for_the_end(runner, signals, options, lease)) {
     // Its thread can't be stopped, but its process can: the lease ends, and another attempt is made.
     std::cerr << fmt::format("the work gave no sign of life for {} s: this worker ends\n",

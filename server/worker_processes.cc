@@ -124,20 +124,25 @@ class WorkerProcesses::Supervisor {
         static_cast<void>(::write(worker.bell.fd(), "\n", 1));  // full: it rings already
   }
 
-  int running() const {
+  std::optional<std::string> shortage() const {
     const std::scoped_lock lock(mutex_);
-    return static_cast<int>(
-        std::count_if(workers_.begin(), workers_.end(), [](const Worker& w) { return w.bell.is_open(); }));
+    const auto missing =
+        std::count_if(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.has_rung; });
+    if (missing == 0) return std::nullopt;
+    return fmt::format(
+        "{} of {} workers {} not started, and each is started again{}", missing, workers_.size(),
+        missing == 1 ? "has" : "have",
+        last_death_.empty() ? "" : fmt::format(" ({}; the service's log has what it said)", last_death_));
   }
-  int wanted() const { return static_cast<int>(workers_.size()); }
 
  private:
   struct Worker {
     std::vector<std::string> command;
     std::string name;
-    pid_t pid = 0;         // 0: does not run
-    FileDescriptor bell;   // its standard input
-    FileDescriptor heard;  // its standard output
+    pid_t pid = 0;          // 0: does not run
+    FileDescriptor bell;    // its standard input
+    FileDescriptor heard;   // its standard output
+    bool has_rung = false;  // since it began
     Clock::time_point begun;
     Clock::time_point starts_again;  // where it does not run
     milliseconds pause{0};           // before the next start
@@ -192,6 +197,8 @@ class WorkerProcesses::Supervisor {
       const std::scoped_lock lock(mutex_);
       worker.bell.close();
       worker.heard.close();
+      worker.has_rung = false;
+      last_death_ = words_of(status);
       if (stopping_) return;
     }
     on_death_(worker.name, words_of(status));
@@ -225,10 +232,13 @@ class WorkerProcesses::Supervisor {
   void hear(Worker& worker) {
     std::array<char, 256> bytes{};
     const ssize_t count = ::read(worker.heard.fd(), bytes.data(), bytes.size());
-    if (count > 0)
-      on_bell_();
-    else if (count == 0)
-      bury(worker);
+    if (count == 0) bury(worker);
+    if (count <= 0) return;
+    {
+      const std::scoped_lock lock(mutex_);
+      worker.has_rung = true;
+    }
+    on_bell_();
   }
 
   bool is_stopping() const {
@@ -252,8 +262,9 @@ class WorkerProcesses::Supervisor {
   const std::function<void()> on_bell_;
   const std::function<void(const std::string&, const std::string&)> on_death_;
   FileDescriptor wake_;
-  mutable std::mutex mutex_;  // stopping_, and the bells of workers_: the rest of them is the thread's
+  mutable std::mutex mutex_;  // stopping_, last_death_, the bells of workers_: the rest is the thread's
   bool stopping_ = false;
+  std::string last_death_;
   std::vector<Worker> workers_;
   std::thread thread_;
 };
@@ -277,12 +288,8 @@ void WorkerProcesses::ring() {
   supervisor_->ring();
 }
 
-int WorkerProcesses::running() const {
-  return supervisor_->running();
-}
-
-int WorkerProcesses::wanted() const {
-  return supervisor_->wanted();
+std::optional<std::string> WorkerProcesses::shortage() const {
+  return supervisor_->shortage();
 }
 
 }  // namespace slipway::server

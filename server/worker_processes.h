@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,9 @@ class WorkerProcesses {
   void stop();
   // Rings at every worker. Thread-safe.
   void ring();
-  // How many of the workers are running now, of how many.
-  int running() const;
-  int wanted() const;
+  // Why not all workers work: how many do not run or have not rung since they began, as one does that could
+  // open its store, and how the last one ended. Nothing where all do.
+  std::optional<std::string> shortage() const;
 
  private:
   class Supervisor;

@@ -53,7 +53,11 @@ PostgresValues held(const Lease& lease) {
 
 Job job_of(const PostgresRows& rows, int row) {
   const auto state = job_state(rows.text(row, 2));
-  if (!state) throw PostgresFailure("a job has a state that is none");
+  if (!state)
+    throw PostgresFailure(
+        fmt::format("what is stored of job {} has the state \"{}\", which is none: ask again "
+                    "for what it was asked",
+                    rows.text(row, 0), rows.text(row, 2)));
   Job job;
   job.id = rows.text(row, 0);
   job.kind = rows.text(row, 1);

@@ -20,7 +20,15 @@ namespace {
 }
 
 [[noreturn]] void throw_last_failure(sqlite3* database) {
-  throw_failure(sqlite3_errcode(database), fmt::format("SQLite: {}", sqlite3_errmsg(database)));
+  const char* const file = sqlite3_db_filename(database, "main");
+  const std::string of = file == nullptr || *file == '\0' ? "" : fmt::format(" of {}", file);
+  const int code = sqlite3_errcode(database);
+  const bool damaged = (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB;
+  throw_failure(code,
+                fmt::format("SQLite{}: {}{}", of, sqlite3_errmsg(database),
+                            damaged ? "; stop the service and restore a copy of the file, or move it away "
+                                      "to begin an empty one"
+                                    : ""));
 }
 
 }  // namespace

@@ -8,9 +8,17 @@
 
 namespace slipway::api {
 
+bool has_known_state(const SqliteStatement& row) {
+  return job_state(row.text(2)).has_value();
+}
+
 Job job_of(const SqliteStatement& row) {
   const auto state = job_state(row.text(2));
-  if (!state) throw SqliteFailure("a job has a state that is none");
+  if (!state)
+    throw SqliteDamage(
+        fmt::format("what is stored of job {} has the state \"{}\", which is none: ask again for "
+                    "what it was asked",
+                    row.text(0), row.text(2)));
   Job job;
   job.id = row.text(0);
   job.kind = row.text(1);

@@ -24,6 +24,8 @@ inline constexpr std::string_view kHeld =
 
 // Of a row of kJobColumns.
 Job job_of(const SqliteStatement& row);
+// Whether job_of() can read it.
+bool has_known_state(const SqliteStatement& row);
 std::optional<Job> get_from(SqliteConnection& connection, std::string_view id);
 
 // What JobStore::claim_some() does with a job that may be claimed.

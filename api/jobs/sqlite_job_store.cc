@@ -1,6 +1,8 @@
 #include "api/jobs/sqlite_job_store.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <condition_variable>
@@ -13,6 +15,7 @@
 #include "api/jobs/sqlite_job_rows.h"
 #include "api/jobs/sqlite_job_schema.h"
 #include "core/boot_clock.h"
+#include "core/file_descriptor.h"
 
 namespace slipway::api {
 namespace {
@@ -23,6 +26,28 @@ std::string among(const std::vector<std::string>& kinds) {
   for (std::size_t i = 0; i < kinds.size(); ++i) places += i == 0 ? "?" : ", ?";
   return kinds.empty() ? "" : fmt::format("AND kind IN ({})", places);
 }
+
+// A file of blocks beside the store's that are given back where a full disk would not let somebody free it.
+class DiskReserve {
+ public:
+  // An empty path keeps none.
+  explicit DiskReserve(std::string path) : path_(std::move(path)) {}
+
+  // Where the disk has no room for it, there is none until the next call.
+  void keep() const {
+    if (path_.empty()) return;
+    constexpr std::int64_t kBytes = std::int64_t{4} << 20U;
+    constexpr int kOwnersAlone = 0600;
+    const FileDescriptor file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnersAlone));
+    if (file.is_open() && ::posix_fallocate(file.fd(), 0, kBytes) != 0) give();
+  }
+  void give() const {
+    if (!path_.empty()) static_cast<void>(::truncate(path_.c_str(), 0));
+  }
+
+ private:
+  std::string path_;
+};
 
 // Runs `work` on a connection that only one thread at a time may use.
 template <class Work>
@@ -42,8 +67,12 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
 class SqliteJobStore final : public JobStore {
  public:
   SqliteJobStore(const std::filesystem::path& path, StoreCheck how_far)
-      : durable_(path, CommitKind::kDurable), second_(quick_to(path)), third_(quick_to(path)) {
+      : durable_(path, CommitKind::kDurable),
+        second_(quick_to(path)),
+        third_(quick_to(path)),
+        reserve_(path.empty() ? "" : path.string() + ".reserve") {
     settle_schema(durable_, path, how_far);
+    if (how_far == StoreCheck::kWhole) reserve_.keep();
   }
 
   // The first of those that wait commits for all of them: a disk does few commits a second, however large.
@@ -191,7 +220,7 @@ class SqliteJobStore final : public JobStore {
   }
 
   Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) override {
-    return guarded(write_mutex_, [&] {
+    return on_a_full_disk([&] {
       SqliteTransaction transaction(durable_);
       dismiss_job(durable_, id, now);
       const std::optional<Job> job = get_from(durable_, id);
@@ -288,20 +317,32 @@ class SqliteJobStore final : public JobStore {
       auto row = reader_.prepare(
           fmt::format("SELECT {} FROM jobs WHERE whole IS NULL ORDER BY sequence DESC LIMIT ?", kJobColumns));
       row.bind(static_cast<std::int64_t>(most));
-      while (row.step()) jobs.push_back(job_of(row));
+      while (row.step())
+        if (has_known_state(row)) jobs.push_back(job_of(row));  // one that is damaged hides itself alone
       return jobs;
     });
   }
 
   Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
-    return guarded(write_mutex_, [&] {
-      const int forgotten = forget_jobs(quick_, kept, now);
-      if (forgotten > 0) quick_.execute("PRAGMA incremental_vacuum");
-      return forgotten;
+    auto forgotten = on_a_full_disk([&] {
+      const int count = forget_jobs(quick_, kept, now);
+      if (count > 0) quick_.execute("PRAGMA incremental_vacuum");
+      return count;
     });
+    if (forgotten) reserve_.keep();
+    return forgotten;
   }
 
  private:
+  // What frees a full disk, or stops what fills it, may use the reserve.
+  template <class Work>
+  auto on_a_full_disk(const Work& work) -> Result<decltype(work())> {
+    auto done = guarded(write_mutex_, work);
+    if (done || done.error().code != ErrorCode::kStorageFull) return done;
+    reserve_.give();
+    return guarded(write_mutex_, work);
+  }
+
   struct PendingAppend {
     const NewJob& job;
     std::int64_t now;
@@ -363,6 +404,7 @@ class SqliteJobStore final : public JobStore {
   const std::unique_ptr<SqliteConnection> second_, third_;
   SqliteConnection& quick_ = second_ ? *second_ : durable_;
   SqliteConnection& reader_ = third_ ? *third_ : durable_;
+  const DiskReserve reserve_;
   std::mutex write_mutex_;  // durable_, quick_: SQLite has one writer at a time anyway
   std::mutex third_mutex_;
   std::mutex& read_mutex_ = third_ ? third_mutex_ : write_mutex_;  // pollers do not wait for the disk

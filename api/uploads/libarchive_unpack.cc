@@ -90,21 +90,37 @@ class Unpacking {
     const fs::path path(name);
     const bool link = archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr;
     const auto type = archive_entry_filetype(entry);
-    std::error_code error;
     if (const auto fault = fault_of(path, limits_)) {
       add(fmt::format("{} {}", in_quotes(name), *fault));
     } else if (link || (type != AE_IFREG && type != AE_IFDIR)) {
       add(fmt::format("{} is no plain file", in_quotes(name)));
     } else if (type == AE_IFDIR) {
-      fs::create_directories(into_ / path, error);
+      const std::size_t before = folders_;
+      make_folders(path);
+      if (folders_ == before) ++folders_;  // one that is there already costs a look too
     } else if (++files_ > limits_.max_files) {
       add(fmt::format("the archive has more than {} files", limits_.max_files));
       given_up_ = true;
     } else {
-      fs::create_directories((into_ / path).parent_path(), error);
+      if (!make_folders(path.parent_path())) return {};
       return write(into_ / path, name);
     }
     return {};
+  }
+
+  // The folder with those above it. False: the archive has more than it may, and is given up. One that can't
+  // be made is found by the file that is to lie in it.
+  bool make_folders(const fs::path& folder) {
+    fs::path at = into_;
+    for (const fs::path& part : folder) {
+      at /= part;
+      std::error_code error;
+      if (fs::create_directory(at, error)) ++folders_;
+    }
+    if (folders_ <= limits_.max_folders) return true;
+    add(fmt::format("the archive has more than {} folders", limits_.max_folders));
+    given_up_ = true;
+    return false;
   }
 
   Result<void> write(const fs::path& path, const std::string& name) {
@@ -125,7 +141,10 @@ class Unpacking {
       }
       bytes_ += read;
       if (bytes_ > limits_.max_bytes) {
-        add(fmt::format("the archive's files have more than {} bytes", limits_.max_bytes));
+        add(
+            fmt::format("the archive's files have more than {} bytes, which is what there is room for: "
+                        "delete uploads, or send less",
+                        limits_.max_bytes));
         given_up_ = true;
         return {};
       }
@@ -140,7 +159,7 @@ class Unpacking {
   const fs::path& into_;
   const UnpackLimits& limits_;
   Progress& progress_;
-  std::size_t files_ = 0;
+  std::size_t files_ = 0, folders_ = 0;
   std::int64_t bytes_ = 0;
   bool given_up_ = false;
   std::vector<Fault> faults_;

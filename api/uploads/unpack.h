@@ -11,6 +11,7 @@ namespace slipway::api {
 
 struct UnpackLimits {
   std::size_t max_files = 20'000;
+  std::size_t max_folders = 1000;
   std::int64_t max_bytes = std::int64_t{8} << 30;  // of all files, unpacked
   std::size_t max_depth = 8;                       // folders above a file
   std::size_t max_name = 100;                      // bytes of each part of a path

@@ -217,6 +217,15 @@ std::int64_t UploadFolder::bytes() const {
   return sum;
 }
 
+std::int64_t UploadFolder::room() const {
+  constexpr std::int64_t kLeftForOthers = std::int64_t{64} << 20U;
+  std::error_code error;
+  const fs::space_info disk = fs::space(root_, error);
+  const std::int64_t allowed = limits_.max_total_bytes - bytes();
+  const std::int64_t there = error ? allowed : static_cast<std::int64_t>(disk.available) - kLeftForOthers;
+  return std::max<std::int64_t>(0, std::min(allowed, there));
+}
+
 Result<void> UploadFolder::check_room(std::int64_t more) const {
   if (const std::int64_t now = bytes(); now + more > limits_.max_total_bytes)
     return fail(ErrorCode::kStorageFull,

@@ -62,6 +62,8 @@ class UploadFolder {
   // Bytes of all that is in the folder, of a file with several names once. Bodies that are still coming are
   // not in it.
   std::int64_t bytes() const;
+  // How many bytes more it may hold, and its disk can.
+  std::int64_t room() const;
   // Errors: storage_full where so many more are not allowed.
   Result<void> check_room(std::int64_t more) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -65,10 +66,13 @@ std::optional<fs::path> top_of(const fs::path& folder) {
 }
 
 // Unpacks into `working` so that the campaign's files lie in `working`/campaign.
-Result<void> unpack_campaign(const fs::path& archive, const fs::path& working, Progress& progress) {
+Result<void> unpack_campaign(const fs::path& archive, const fs::path& working, std::int64_t room,
+                             Progress& progress) {
   const fs::path unpacked = working / "unpacked";
   if (const auto made = make_folder(unpacked); !made) return made;
-  if (const auto done = unpack(archive, unpacked, {}, progress); !done) return done;
+  UnpackLimits limits;
+  limits.max_bytes = std::min(limits.max_bytes, room);
+  if (const auto done = unpack(archive, unpacked, limits, progress); !done) return done;
   const auto top = top_of(unpacked);
   if (!top)
     return fail(ErrorCode::kInvalidRequest, "the archive holds no campaign",
@@ -183,11 +187,12 @@ Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& 
   const fs::path& working = folder.path();
   if (const auto made = make_folder(working); !made) return fail(made.error());
   progress.report("reading the drives", 0.1);
+  const std::int64_t room = uploads.room();
   const auto notes = run_confined(
       kLimits,
       [&](Progress& inner) -> Result<std::string> {
         const auto there = order.upload.empty() ? append_drives(source, *order.drives, working)
-                                                : unpack_campaign(source, working, inner);
+                                                : unpack_campaign(source, working, room, inner);
         if (!there) return fail(there.error());
         const auto campaign = load_drive_campaign(working / kFiles, catalogue);
         if (!campaign) return fail(campaign.error());
@@ -199,7 +204,7 @@ Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& 
   if (!notes) return fail(notes.error());
   const auto name = name_of(working / kFiles);
   if (!name) return fail(name.error());
-  if (const auto room = uploads.check_room(0); !room) return fail(room.error());
+  if (const auto fits = uploads.check_room(0); !fits) return fail(fits.error());
   if (const auto written = write_origin(working, origin, *name); !written) return fail(written.error());
   const auto placed = put_in_place(working, uploads.campaigns() / *name);
   if (!placed) return fail(placed.error());

@@ -69,8 +69,8 @@ HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchang
   }
 }
 
-bool Answers::is_heavy(const RequestHead& head) const {
-  return routes_.is_heavy(head.method, head.path);
+const Route* Answers::route_of(const RequestHead& head) const {
+  return routes_.find(head.method == "HEAD" ? "GET" : head.method, head.path);
 }
 
 std::string Answers::to_refused(HttpEngine& engine, const Refused& refused, const Error& error) const {

@@ -20,7 +20,7 @@ class Answers {
 
   // Never throws.
   HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
-  bool is_heavy(const RequestHead& head) const;
+  const Route* route_of(const RequestHead& head) const;
   // What is known of a request that is refused before it is whole.
   struct Refused {
     std::string_view method;

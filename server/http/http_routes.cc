@@ -90,11 +90,12 @@ std::string RouteTable::allowed(const std::vector<const Entry*>& entries) const 
   return fmt::format("{}", fmt::join(methods, ", "));
 }
 
-bool RouteTable::is_heavy(std::string_view method, std::string_view raw_path) const {
+const Route* RouteTable::find(std::string_view method, std::string_view raw_path) const {
   const std::vector<std::string> path = segments_of(raw_path);
-  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.route.heavy && entry.route.method == method && matches(entry.segments, path);
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.route.method == method && matches(entry.segments, path);
   });
+  return found == entries_.end() ? nullptr : &found->route;
 }
 
 HttpResponse RouteTable::answer(

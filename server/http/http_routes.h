@@ -19,6 +19,8 @@ struct Route {
   // Takes long or much memory: answered by a few threads of its own, so that who polls does not wait behind
   // it.
   bool heavy = false;
+  // Waits for nothing, no store and no other thread: answered by a thread that only such routes have.
+  bool prompt = false;
 };
 
 // The routes, matched segment by segment: cpp-httplib's patterns are std::regex, which some patterns bring to
@@ -32,8 +34,8 @@ class RouteTable {
   // not known, or not with this method, goes through `problem`.
   HttpResponse answer(HttpRequest& request,
                       const std::function<HttpResponse(const Error&, const HttpRequest*)>& problem) const;
-  // Whether a heavy route answers this method at this address, as it was sent, without its query.
-  bool is_heavy(std::string_view method, std::string_view raw_path) const;
+  // The route that answers this method at this address, as it was sent, without its query; nullptr: none.
+  const Route* find(std::string_view method, std::string_view raw_path) const;
 
  private:
   struct Entry {

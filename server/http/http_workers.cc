@@ -17,6 +17,7 @@ HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, Liv
   };
   begin(options.worker_threads, light_);
   begin(options.heavy_threads, heavy_);
+  begin(1, prompt_);
 }
 
 HttpWorkers::~HttpWorkers() {
@@ -24,7 +25,7 @@ HttpWorkers::~HttpWorkers() {
 }
 
 void HttpWorkers::submit(Work work) {
-  Queue& queue = work.pieces || answers_.is_heavy(work.gathered.head) ? heavy_ : light_;
+  Queue& queue = queue_of(work);
   {
     const std::lock_guard lock(mutex_);
     queue.waiting.push_back(std::move(work));
@@ -32,12 +33,19 @@ void HttpWorkers::submit(Work work) {
   queue.condition.notify_one();
 }
 
+HttpWorkers::Queue& HttpWorkers::queue_of(const Work& work) {
+  if (work.pieces) return heavy_;
+  const Route* const route = answers_.route_of(work.gathered.head);
+  if (route == nullptr) return light_;
+  return route->prompt ? prompt_ : route->heavy ? heavy_ : light_;
+}
+
 void HttpWorkers::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  for (Queue* queue : {&light_, &heavy_}) queue->condition.notify_all();
+  for (Queue* queue : {&light_, &heavy_, &prompt_}) queue->condition.notify_all();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }

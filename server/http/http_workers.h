@@ -70,6 +70,7 @@ class HttpWorkers {
     std::deque<Work> waiting;
   };
 
+  Queue& queue_of(const Work& work);
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void go_on(Work work);
@@ -80,7 +81,7 @@ class HttpWorkers {
   LiveCounters& counters_;
   std::function<void(WorkDone)> done_;
   std::mutex mutex_;
-  Queue light_, heavy_;
+  Queue light_, heavy_, prompt_;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -74,13 +74,28 @@ NewToken new_token(std::string_view name, Role role) {
 
 Result<std::unique_ptr<Access>> Access::open(const AccessOptions& options) {
   std::unique_ptr<Access> access(new Access(options));
-  if (options.tokens.empty()) return access;
-  const auto bytes = api::read_data_file(options.tokens);
+  if (const auto read = access->read_again(); !read) return fail(read.error());
+  return access;
+}
+
+Result<std::size_t> Access::read_again() {
+  if (options_.tokens.empty()) return std::size_t{0};
+  auto read = read_tokens(options_.tokens);
+  if (!read) return fail(read.error());
+  const std::size_t count = read->size();
+  const std::scoped_lock lock(mutex_);
+  holders_ = *std::move(read);
+  return count;
+}
+
+Result<Access::Holders> Access::read_tokens(const std::string& path) {
+  const auto bytes = api::read_data_file(path);
   if (!bytes) return fail(bytes.error());
-  const auto document = api::json::parse_toml(*bytes, options.tokens);
+  const auto document = api::json::parse_toml(*bytes, path);
   if (!document) return fail(document.error());
   std::vector<Fault> faults;
   ObjectReader reader(*document, "", faults);
+  Holders holders;
   std::set<std::string> names;
   for (const Element& element : reader.list("tokens", api::json::kRequired, {1, kMostTokens})) {
     ObjectReader entry = reader.object(element);
@@ -97,28 +112,29 @@ Result<std::unique_ptr<Access>> Access::open(const AccessOptions& options) {
     if (!names.insert(holder.name).second)
       entry.fault("name", fmt::format("\"{}\" is the name of two tokens", holder.name));
     holder.role = static_cast<Role>(role);
-    access->holders_.emplace(std::move(hash), std::move(holder));
+    holders.emplace(std::move(hash), std::move(holder));
   }
   reader.refuse_unknown();
   if (!faults.empty())
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be used", options.tokens),
-                std::move(faults));
-  return access;
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be used", path), std::move(faults));
+  return holders;
 }
 
-Result<const Access::Holder*> Access::holder_of(std::string_view method, std::string_view path,
-                                                const std::optional<std::string>& authorization) const {
+Result<std::optional<Access::Holder>> Access::holder_of(
+    std::string_view method, std::string_view path, const std::optional<std::string>& authorization) const {
   const bool open =
       path.starts_with(kOpenFolder) || std::find(kOpen.begin(), kOpen.end(), path) != kOpen.end();
-  if (options_.tokens.empty() || open || method == "OPTIONS") return nullptr;
+  if (options_.tokens.empty() || open || method == "OPTIONS") return std::nullopt;
   const auto token = token_in(authorization);
-  const auto holder = token ? holders_.find(hash_of(*token)) : holders_.end();
+  const std::string hash = token ? hash_of(*token) : "";
+  const std::scoped_lock lock(mutex_);
+  const auto holder = token ? holders_.find(hash) : holders_.end();
   if (holder == holders_.end())
     return fail(ErrorCode::kUnauthorized, token ? "the token is not known here" : "a token is needed here");
   if (holder->second.role == Role::kViewer && !only_reads(method))
     return fail(ErrorCode::kForbidden,
                 fmt::format("{} is a viewer, who changes nothing", holder->second.name));
-  return &holder->second;
+  return holder->second;
 }
 
 bool Access::refuses(std::string_view method, std::string_view path,
@@ -130,7 +146,7 @@ Result<void> Access::admit(HttpRequest& request) {
   const auto holder = holder_of(request.method, request.path, request.header("Authorization"));
   request.principal = is_loopback(request.remote_address) ? "loopback" : request.remote_address;
   if (!holder) return fail(holder.error());
-  if (*holder != nullptr) {
+  if (*holder) {
     request.principal = (*holder)->name;
     request.is_admin = (*holder)->role == Role::kAdmin;
   }

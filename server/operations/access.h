@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -41,6 +42,10 @@ class Access {
   // hash of the token in hexadecimal digits. Errors: unreadable_data with every fault of the file.
   static Result<std::unique_ptr<Access>> open(const AccessOptions& options);
 
+  // Reads the file of tokens anew, as open() does: who is no longer in it is not known from then on. An error
+  // leaves the tokens that were. How many are known now.
+  Result<std::size_t> read_again();
+
   // Whether the request may be answered; it then knows who asks. Errors: unauthorized (no token, or one that
   // is not known), forbidden (the role does not allow it), too_many_requests.
   Result<void> admit(HttpRequest& request);
@@ -63,14 +68,16 @@ class Access {
   };
 
   explicit Access(AccessOptions options) : options_(std::move(options)) {}
-  // Who asks; nullptr where nobody needs a token. Errors: unauthorized, forbidden.
-  Result<const Holder*> holder_of(std::string_view method, std::string_view path,
-                                  const std::optional<std::string>& authorization) const;
+  using Holders = std::map<std::string, Holder, std::less<>>;  // by the token's hash
+  static Result<Holders> read_tokens(const std::string& path);
+  // Who asks; nothing where nobody needs a token. Errors: unauthorized, forbidden.
+  Result<std::optional<Holder>> holder_of(std::string_view method, std::string_view path,
+                                          const std::optional<std::string>& authorization) const;
   bool is_within_rate(const std::string& who);
 
   AccessOptions options_;
-  std::map<std::string, Holder, std::less<>> holders_;  // by the token's hash
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
+  Holders holders_;
   std::map<std::string, Bucket, std::less<>> buckets_;
 };
 

@@ -1,9 +1,8 @@
 #include "server/routes/operator_routes.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "server/routes/responses.h"
 
@@ -20,12 +19,7 @@ HttpResponse metrics(const Operation& of, const HttpRequest& request) {
 }
 
 HttpResponse readiness(const Operation& of, const HttpRequest& request) {
-  if (const auto read = of.store.list(1); !read) return problem_response(read.error(), &request);
-  if (const int missing = of.missing_workers(); missing > 0)
-    return problem(ErrorCode::kNotReady,
-                   fmt::format("{} of the workers {} not run; each is started again", missing,
-                               missing == 1 ? "does" : "do"),
-                   request);
+  if (auto reason = of.not_ready()) return problem(ErrorCode::kNotReady, *std::move(reason), request);
   HttpResponse response = document(R"({"status":"ready"})");
   response.headers = {{"Cache-Control", "no-store"}};
   return response;
@@ -36,7 +30,10 @@ HttpResponse readiness(const Operation& of, const HttpRequest& request) {
 std::vector<Route> operator_routes(const Operation& operation) {
   const auto of = std::make_shared<const Operation>(operation);
   return {{"GET", "/metrics", [of](const HttpRequest& r) { return metrics(*of, r); }},
-          {"GET", "/readyz", [of](const HttpRequest& r) { return readiness(*of, r); }}};
+          {.method = "GET",
+           .pattern = "/readyz",
+           .handle = [of](const HttpRequest& r) { return readiness(*of, r); },
+           .prompt = true}};
 }
 
 }  // namespace slipway::server

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "api/jobs/job_store.h"
@@ -15,10 +17,10 @@ struct Operation {
   ServiceMetrics& metrics;
   api::JobStore& store;
   std::function<HttpCounters()> http = {};
-  std::function<int()> missing_workers = {};  // of the worker processes
+  std::function<std::optional<std::string>()> not_ready = {};  // why, see Readiness
 };
 
-// /metrics for Prometheus, and /readyz: whether the store answers and every worker runs.
+// /metrics for Prometheus, and /readyz: whether the service can take work.
 std::vector<Route> operator_routes(const Operation& operation);
 
 }  // namespace slipway::server

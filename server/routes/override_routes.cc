@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view kOverrideKind = "override";
 constexpr std::int64_t kConfirmWithin_ms = std::int64_t{10} * 60 * 1000;
-constexpr std::size_t kMaxUnconfirmed = 1000;
+constexpr std::size_t kMaxUnconfirmed = 10'000, kMaxUnconfirmedOfOne = 20;
 constexpr std::size_t kMinReason = 10, kMaxReason = 2000;
 
 // What somebody has asked for, until it is confirmed.
@@ -68,7 +68,7 @@ std::string override_id(const std::string& check) {
 
 class Overrides {
  public:
-  explicit Overrides(api::JobStore& store) : store_(store) {}
+  Overrides(api::JobStore& store, int persons) : store_(store), persons_(persons) {}
 
   HttpResponse get(const HttpRequest& request) {
     const auto kept = store_.request(override_id(std::string(request.parameter("id"))));
@@ -83,6 +83,17 @@ class Overrides {
     const std::string check(request.parameter("id"));
     const auto wanted = read_request(request.body);
     if (!wanted) return problem_response(wanted.error(), &request);
+    HttpResponse response = answer_to(check, *wanted, request);
+    // The log has the reason whatever became of it, but not what the next person needs to confirm.
+    api::json::Writer w;
+    w.begin_object().text("override_of", check).text("reason", wanted->reason).end_object();
+    if (response.audit.empty()) response.audit = w.take();
+    return response;
+  }
+
+ private:
+  HttpResponse answer_to(const std::string& check, const OverrideRequest& wanted,
+                         const HttpRequest& request) {
     const auto verdict = verdict_of(check);
     if (!verdict) return problem_response(verdict.error(), &request);
     if (*verdict == "go")
@@ -90,11 +101,10 @@ class Overrides {
     const auto known = store_.get(override_id(check));
     if (!known) return problem_response(known.error(), &request);
     if (*known) return problem(ErrorCode::kConflict, "the check has been overridden already", request);
-    return wanted->confirmation.empty() ? ask(check, *verdict, wanted->reason, request)
-                                        : confirm(check, *verdict, *wanted, request);
+    return wanted.confirmation.empty() ? ask(check, *verdict, wanted.reason, request)
+                                       : confirm(check, *verdict, wanted, request);
   }
 
- private:
   // Of a successful check.
   Result<std::string> verdict_of(const std::string& check) {
     const auto job = store_.get(check);
@@ -120,10 +130,22 @@ class Overrides {
     const std::string confirmation = api::new_job_id().substr(0, 16);
     {
       const std::scoped_lock lock(mutex_);
-      std::erase_if(asked_, [&](const auto& a) { return a.second.at_ms + kConfirmWithin_ms < now; });
-      if (asked_.size() >= kMaxUnconfirmed)
-        return problem(ErrorCode::kTooManyRequests, "too many overrides wait for their confirmation",
+      // Who asks again for the same check takes back what was asked before.
+      std::erase_if(asked_, [&](const auto& entry) {
+        const Asked& a = entry.second;
+        return a.at_ms + kConfirmWithin_ms < now || (a.check == check && a.by == request.principal);
+      });
+      const auto own = static_cast<std::size_t>(std::count_if(
+          asked_.begin(), asked_.end(), [&](const auto& a) { return a.second.by == request.principal; }));
+      if (own >= kMaxUnconfirmedOfOne)
+        return problem(ErrorCode::kOverQuota,
+                       fmt::format("{} overrides that you asked for wait for their confirmation: have them "
+                                   "confirmed, or wait ten minutes",
+                                   own),
                        request);
+      if (asked_.size() >= kMaxUnconfirmed)
+        return problem(ErrorCode::kTooManyRequests,
+                       "too many overrides wait for their confirmation: ask again in ten minutes", request);
       asked_[confirmation] = {check, reason, request.principal, now};
     }
     api::json::Writer w;
@@ -156,6 +178,14 @@ class Overrides {
                    : "is not one that was given for this check within the last ten minutes: ask again "
                      "without it"}}},
           &request);
+    if (persons_ > 1 && asked->by == request.principal)
+      return problem(
+          ErrorCode::kForbidden,
+          fmt::format("{} asked for this override, so another person must confirm it; persons are "
+                      "told apart by their tokens (--tokens), and one is enough where the operator "
+                      "says --override-persons 1",
+                      asked->by),
+          request);
     api::json::Writer w;
     w.begin_object().text("format", "override/1").text("state", "overridden").text("check", check);
     w.text("verdict", verdict).text("reason", asked->reason).text("asked_by", asked->by);
@@ -198,14 +228,15 @@ class Overrides {
   }
 
   api::JobStore& store_;
+  const int persons_;
   std::mutex mutex_;
   std::map<std::string, Asked, std::less<>> asked_;
 };
 
 }  // namespace
 
-std::vector<Route> override_routes(api::JobStore& store) {
-  const auto overrides = std::make_shared<Overrides>(store);
+std::vector<Route> override_routes(api::JobStore& store, int persons) {
+  const auto overrides = std::make_shared<Overrides>(store, persons);
   return {
       {"POST", "/v1/checks/{id}/override", [overrides](const HttpRequest& r) { return overrides->post(r); }},
       {"GET", "/v1/checks/{id}/override", [overrides](const HttpRequest& r) { return overrides->get(r); }}};

@@ -8,9 +8,9 @@
 namespace slipway::server {
 
 // POST and GET of a check's override: who lets a drive go whose check says NO-GO or UNKNOWN, and why. It
-// takes two requests, the second with what the first one's answer gave for it; the check itself stays as it
-// is. An override is kept in the store as a job of kind "override" and told to the audit log. The store must
-// outlive the routes.
-std::vector<Route> override_routes(api::JobStore& store);
+// takes two requests, the second with what the first one's answer gave for it, and from another person where
+// `persons` is 2; the check itself stays as it is. An override is kept in the store as a job of kind
+// "override" and told to the audit log. The store must outlive the routes.
+std::vector<Route> override_routes(api::JobStore& store, int persons);
 
 }  // namespace slipway::server

@@ -55,7 +55,6 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
   const std::shared_ptr<const api::Catalogue> shipped = service.catalogue();
   const api::Catalogue& catalogue = *shipped;  // of what nobody sends
   std::vector<Route> routes{
-      fixed("/healthz", api::json::write_health()),
       fixed("/openapi.json", std::string(api::openapi_document())),
       fixed("/errors", api::json::write_errors()),
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
@@ -68,9 +67,12 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
        /*heavy=*/true},
   };
+  routes.push_back(fixed("/healthz", api::json::write_health()));
+  routes.back().prompt = true;
   for (std::vector<Route> more :
        {job_routes(service, runner, options, kinds), comparison_routes(runner.store()),
-        override_routes(runner.store()), upload_routes(service), terrain_routes(service)})
+        override_routes(runner.store(), options.override_persons), upload_routes(service),
+        terrain_routes(service)})
     std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }

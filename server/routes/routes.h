@@ -15,6 +15,7 @@ struct RouteOptions {
   std::chrono::seconds longest_wait{30};  // a longer "Prefer: wait" is cut to this
   int most_waiting = 4;  // waiting clients hold a handler's thread each: some must stay free for the others
   std::size_t most_listed = 500;
+  int override_persons = 2;  // 2: who confirms an override is not who asked for it
 };
 
 // What is asked and answered under which address. The service, the runner and the kinds of jobs must outlive

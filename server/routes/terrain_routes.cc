@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -106,6 +108,9 @@ class TerrainRoutes {
         (path.size() % 2 != 0 || path.size() < 4 || path.size() > 2 * api::kMaxProfileCorners))
       query.fault("path", fmt::format("path has {} numbers, must have x and y of 2 to {} corners",
                                       path.size(), api::kMaxProfileCorners));
+    constexpr double kFarthest_m = 1e9;  // beyond every map of a planet: squares of it are still numbers
+    if (std::any_of(path.begin(), path.end(), [](double c) { return std::abs(c) > kFarthest_m; }))
+      query.fault("path", fmt::format("path has a coordinate beyond {:g} m, where no map is", kFarthest_m));
     if (const auto error = query.error()) return problem_response(*error, &request);
     const auto site = site_of(request);
     if (!site) return problem_response(site.error(), &request);

@@ -75,6 +75,21 @@ TEST(Unpacking, StopsAtItsLimits) {
   EXPECT_FALSE(unpacked(deep, tar_entry("a/b", "1"), {.max_depth = 0}));
 }
 
+TEST(Unpacking, FoldersCountWhereverTheyComeFrom) {
+  const std::string made = tar_entry("a/", "", '5') + tar_entry("b/", "", '5'),
+                    same = tar_entry("a/", "", '5');
+  const std::string file = tar_entry("c", "1");
+  for (const std::string& archive :
+       {made + file, same + same + same + file, tar_entry("a/b/c", "1") + file}) {
+    const ScratchFolder folder;
+    const auto done = unpacked(folder, archive, {.max_folders = 1});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().detail.find("folders"), std::string::npos) << done.error().detail;
+    const ScratchFolder wider;
+    EXPECT_TRUE(unpacked(wider, archive, {.max_folders = 3}));
+  }
+}
+
 TEST(Unpacking, TellsAllThatIsNoPlainFile) {
   const ScratchFolder folder;
   const auto done =
@@ -132,7 +147,10 @@ TEST(UploadFolder, AnAlteredFileIsNotGivenOut) {
 TEST(UploadFolder, HoldsNoMoreThanItMay) {
   const ScratchFolder folder;
   auto uploads = UploadFolder::open(folder.path(), {.max_total_bytes = 1000}).value();
+  const std::int64_t before = uploads->room();
   ASSERT_TRUE(uploads->keep(body(folder.path(), std::string(500, 'a')).fd(), "a", {}));
+  EXPECT_LE(uploads->room(), before - 500) << "what an archive may unpack to";
+  EXPECT_LE(uploads->room(), 500);
   const auto second = uploads->keep(body(folder.path(), std::string(500, 'b')).fd(), "b", {});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, ErrorCode::kStorageFull);

@@ -18,6 +18,8 @@ SHORT = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, STOP_997], 
 
 
 class Contract(WithServer):
+    OPTIONS = ("--override-persons", "1")
+
     @classmethod
     def data(cls, folder):
         # Enough drives to find what they lack, few enough to be quick.

@@ -145,11 +145,13 @@ class Server:
 
 class WithServer(unittest.TestCase):
     """Tests that share one server."""
+    OPTIONS = ()
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.server = Server(pathlib.Path(cls.folder.name), data=cls.data(pathlib.Path(cls.folder.name)))
+        folder = pathlib.Path(cls.folder.name)
+        cls.server = Server(folder, *cls.OPTIONS, data=cls.data(folder))
 
     @classmethod
     def data(cls, folder):

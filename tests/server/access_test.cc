@@ -97,6 +97,22 @@ TEST(Access, EveryFaultOfTheFileIsNamed) {
   EXPECT_FALSE(Access::open({.tokens = "/no/such/file"}));
 }
 
+TEST(Access, AFileThatIsReadAgainHoldsAtOnceAndABrokenOneChangesNothing) {
+  const NewToken stays = new_token("ops", Role::kOperator), goes = new_token("wall", Role::kViewer);
+  const TokenFile file(stays.entry + goes.entry);
+  const auto access = Access::open({.tokens = file.path()});
+  ASSERT_TRUE(access) << access.error().detail;
+  HttpRequest request = asked("GET", goes.token);
+  EXPECT_TRUE((*access)->admit(request));
+  std::ofstream(file.path()) << stays.entry;
+  ASSERT_EQ((*access)->read_again().value_or(0), 1u);
+  EXPECT_EQ(refusal_of(**access, asked("GET", goes.token)), ErrorCode::kUnauthorized);
+  std::ofstream(file.path()) << "[[tokens]]\nname = ";
+  EXPECT_FALSE((*access)->read_again());
+  HttpRequest again = asked("GET", stays.token);
+  EXPECT_TRUE((*access)->admit(again));
+}
+
 TEST(Access, WithoutTokensTheAddressAsks) {
   const auto access = Access::open({});
   HttpRequest request = asked("DELETE", "");

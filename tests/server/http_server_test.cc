@@ -387,6 +387,35 @@ TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
   EXPECT_EQ(most, 2);
 }
 
+TEST(HttpServer, APromptRouteWaitsForNoOther) {
+  std::atomic<int> waiting{0};
+  std::atomic<bool> held{true};
+  HttpOptions options;
+  options.worker_threads = 2;
+  const auto none = HttpResponse{204, "", "", {}};
+  HttpServer server(options, {{.method = "GET",
+                               .pattern = "/healthz",
+                               .handle = [none](const HttpRequest&) { return none; },
+                               .prompt = true},
+                              {"GET", "/poll", [&, none](const HttpRequest&) {
+                                 ++waiting;
+                                 while (held) std::this_thread::sleep_for(milliseconds(1));
+                                 return none;
+                               }}});
+  const auto port = server.start();
+  ASSERT_TRUE(port);
+  std::vector<std::unique_ptr<RawClient>> clients;
+  for (int k = 0; k < 32; ++k) {
+    clients.push_back(std::make_unique<RawClient>(*port));
+    clients.back()->send(get("/poll"));
+  }
+  while (waiting < 2) std::this_thread::sleep_for(milliseconds(1));
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/healthz")).status, 204);
+  EXPECT_EQ(waiting, 2) << "all threads of the others are taken";
+  held = false;
+  for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
+}
+
 TEST(HttpServer, RoutesThatCannotBeToldApartAreRefusedAtOnce) {
   const auto handle = [](const HttpRequest&) { return HttpResponse{}; };
   EXPECT_THROW(HttpServer({}, {{"GET", "/a/{x}", handle}, {"GET", "/a/{y}", handle}}), std::invalid_argument);

@@ -79,6 +79,20 @@ TEST(WorkerProcesses, BellsGoBothWays) {
   EXPECT_TRUE(shells.deaths().empty()) << "who is asked to end has not died";
 }
 
+TEST(WorkerProcesses, WhatDiesAtItsStartIsMissingAllTheTime) {
+  Shells dying("exit 7"), starting("echo; read line");
+  EXPECT_TRUE(dying.workers().shortage());
+  ASSERT_TRUE(dying.workers().start());
+  ASSERT_TRUE(starting.workers().start());
+  while (dying.deaths().size() < 20) {
+    const auto shortage = dying.workers().shortage();
+    ASSERT_TRUE(shortage);
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_NE(dying.workers().shortage()->find("status 7"), std::string::npos);
+  EXPECT_TRUE(comes_true([&] { return !starting.workers().shortage(); }));
+}
+
 TEST(WorkerProcesses, WhoDoesNotEndIsKilled) {
   Shells shells("trap '' TERM; echo; while :; do sleep 1; done");
   ASSERT_TRUE(shells.workers().start());

@@ -10,6 +10,7 @@
 
 #include "api/files/terrain_site.h"
 #include "api/json/toml_parse.h"
+#include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_option.h"
 
 namespace slipway::server {
@@ -72,12 +73,6 @@ std::vector<std::string> words_of(const JsonValue& value) {
   for (const JsonValue& element : value.elements)
     for (std::string& word : words_of(element)) words.push_back(std::move(word));
   return words;
-}
-
-std::string in_one_line(const Error& error) {
-  std::string line = error.detail;
-  for (const Fault& fault : error.faults) line += fmt::format("; {} {}", fault.pointer, fault.message);
-  return line;
 }
 
 // Sets the options that the command line does not give. Throws CLI::ValidationError with every fault.
@@ -218,10 +213,16 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(1, 1'000'000));
   add_job_limits(*command, options->of_job);
   command->add_option("--tokens", options->tokens,
-                      "TOML file of the tokens that may ask, see \"slipway token\"");
+                      "TOML file of the tokens that may ask, see \"slipway token\"; SIGHUP reads it again");
   command->add_flag(
       "--no-tokens", options->no_tokens,
       "let who reaches an address beyond loopback ask without a token, behind a proxy that knows them");
+  command
+      ->add_option(
+          "--override-persons", options->override_persons,
+          "persons whom the override of a check takes: 2, one who asks and another who confirms, or 1")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2));
   command->add_option("--audit", options->audit,
                       "append every request that changes something to this file, as JSON");
   command

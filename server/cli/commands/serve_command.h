@@ -81,6 +81,7 @@ struct ServeOptions {
   bool no_workers = false;      // others work on the store
   std::string tokens;           // TOML file of who may ask; empty: who reaches the service
   bool no_tokens = false;       // who reaches an address beyond loopback may ask without a token
+  int override_persons = 2;     // who ask for and confirm an override; 1: one may do both
   std::string audit;            // file to which requests that change something are appended
   double requests_per_s = 0.0;  // of one token or address; 0: any number
   bool log_json = false;        // events as JSON, one a line

@@ -53,6 +53,12 @@ tl::unexpected<Error> bad(const std::string& flag, const std::string& message) {
 
 }  // namespace
 
+std::string in_one_line(const Error& error) {
+  std::string line = error.detail;
+  for (const Fault& fault : error.faults) line += fmt::format("; {} {}", fault.pointer, fault.message);
+  return line;
+}
+
 int refuse(const Error& error) {
   std::cerr << error_text(error);
   const bool of_the_question = error.code == ErrorCode::kInvalidRequest ||

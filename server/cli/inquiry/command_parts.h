@@ -26,6 +26,8 @@ class Interruptible final : public Progress {
   bool cancelled() const override { return given_up(); }
 };
 
+// The error with its faults, for a log.
+std::string in_one_line(const Error& error);
 // Prints the error with its faults; the exit status that goes with it.
 int refuse(const Error& error);
 // The same where drives are read: what can't be read is the question's fault, 2.

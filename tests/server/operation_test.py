@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""What attackers and operators do to a running service: tokens that are taken away, overrides by one person, a database that
+is gone, workers that can't start, a full disk, a clock that is wrong.
+
+usage: operation_test.py SLIPWAY SOURCE_DIR
+"""
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "contract"))
+from running_service import DATA, SLIPWAY, SOURCE, STOP_967, STOP_997, Server, plan  # noqa: E402
+
+ASYNC = {"Prefer": "respond-async"}
+CHECK = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, STOP_997], "limits": {"max_slip": 0.0001}}
+REASON = "The drivers have walked this ground."
+
+
+def comes_true(condition, seconds=60):
+    deadline = time.time() + seconds
+    while time.time() < deadline:
+        if condition():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+class Operation(unittest.TestCase):
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+
+    def serve(self, *options, data=DATA):
+        server = Server(self.folder, *options, data=data)
+        self.addCleanup(lambda: server.process.poll() is None and server.stop())
+        return server
+
+    def token(self, name, role="operator"):
+        """A token, and what stands in the file for it."""
+        made = subprocess.run([SLIPWAY, "token", name, "--role", role], capture_output=True, text=True, check=True)
+        return {"Authorization": "Bearer " + made.stderr.splitlines()[-1]}, made.stdout
+
+    def test_sighup_reads_the_tokens_again_and_ends_nothing(self):
+        tokens, audit = self.folder / "tokens.toml", self.folder / "audit.jsonl"
+        (ann, entry_of_ann), (bob, entry_of_bob) = self.token("ann"), self.token("bob")
+        tokens.write_text(entry_of_ann + entry_of_bob)
+        server = self.serve("--tokens", str(tokens), "--audit", str(audit))
+        status = lambda who: server.ask("GET", "/v1/jobs", headers=who)[0]
+        self.assertEqual((status(ann), status(bob)), (200, 200))
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        workers = server.worker_pids()
+        tokens.write_text(entry_of_ann)
+        audit.rename(self.folder / "audit.1")
+        server.process.send_signal(signal.SIGHUP)
+        self.assertTrue(comes_true(lambda: status(bob) == 401, 10))
+        self.assertTrue(comes_true(audit.exists, 10), "the log was moved away, and is begun anew")
+        tokens.write_text("[[tokens]]\nname = ")
+        server.process.send_signal(signal.SIGHUP)
+        time.sleep(0.5)
+        self.assertEqual((status(ann), status(bob)), (200, 401), "a broken file changes nothing")
+        for pid in workers:
+            os.kill(pid, signal.SIGHUP)
+        time.sleep(0.3)
+        self.assertEqual(sorted(server.worker_pids()), sorted(workers))
+
+    def refused_check(self, server, who):
+        """The override's address of a check that says NO-GO."""
+        status, headers, body = server.ask("POST", "/v1/checks", CHECK, {**ASYNC, **who})
+        self.assertEqual(status, 201, body)
+        done = lambda: json.loads(server.ask("GET", headers["Location"], headers=who)[2])["state"] == "successful"
+        self.assertTrue(comes_true(done))
+        return "/v1/checks/" + headers["Location"].split("/")[-1] + "/override"
+
+    def test_an_override_takes_two_persons_and_its_reason_is_in_every_line(self):
+        tokens, audit = self.folder / "tokens.toml", self.folder / "audit.jsonl"
+        (ann, entry_of_ann), (bob, entry_of_bob) = self.token("ann"), self.token("bob")
+        tokens.write_text(entry_of_ann + entry_of_bob)
+        server = self.serve("--tokens", str(tokens), "--audit", str(audit))
+        address = self.refused_check(server, ann)
+        asks = lambda who, **more: server.ask("POST", address, {"reason": REASON, **more}, who)
+        confirmation = json.loads(asks(ann)[2])["confirmation"]
+        status, _, body = asks(ann, confirmation=confirmation)
+        self.assertEqual(status, 403, body)
+        self.assertIn("another person", json.loads(body)["detail"])
+        self.assertEqual(asks(bob, confirmation=confirmation)[0], 201)
+        lines = [json.loads(line) for line in audit.read_text().splitlines()]
+        lines = [line for line in lines if line["path"] == address]
+        self.assertEqual([(line["who"], line["status"]) for line in lines], [("ann", 200), ("ann", 403), ("bob", 201)])
+        self.assertTrue(all(line["what"]["reason"] == REASON for line in lines), lines)
+        self.assertNotIn(confirmation, audit.read_text())
+
+    def test_one_person_is_enough_where_the_settings_say_so(self):
+        server = self.serve("--override-persons", "1")
+        address = self.refused_check(server, {})
+        for _ in range(50):  # who asks again takes back what was asked before
+            status, _, body = server.ask("POST", address, {"reason": REASON})
+            self.assertEqual(status, 200, body)
+        confirmed = {"reason": REASON, "confirmation": json.loads(body)["confirmation"]}
+        self.assertEqual(server.ask("POST", address, confirmed)[0], 201)
+
+    def test_a_database_that_is_gone_delays_no_health_and_is_told(self):
+        script = ["bash", str(SOURCE / "tests" / "postgres" / "server.sh")]
+        if subprocess.run([*script, "available"], capture_output=True).returncode != 0:
+            self.skipTest("PostgreSQL is not installed")
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        database = str(pathlib.Path(made.name) / "pg")
+        os.chmod(made.name, 0o755)
+        address = subprocess.run([*script, "start", database], capture_output=True, text=True, check=True).stdout.strip()
+        self.addCleanup(lambda: subprocess.run([*script, "stop", database, "immediate"], capture_output=True))
+        server = self.serve("--jobs", address)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        subprocess.run([*script, "stop", database, "immediate"], capture_output=True, check=True)
+        pollers = [threading.Thread(target=server.ask, args=("GET", "/v1/jobs")) for _ in range(32)]
+        for poller in pollers:
+            poller.start()
+        for _ in range(20):
+            began = time.time()
+            self.assertEqual(server.ask("GET", "/healthz")[0], 200)
+            self.assertLess(time.time() - began, 2.0)
+            time.sleep(0.05)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 15))
+        for poller in pollers:
+            poller.join()
+        server.kill()  # an orderly stop would wait for the database
+
+    def test_a_service_without_workers_that_start_is_never_ready(self):
+        server = self.serve()
+        ready = lambda: server.ask("GET", "/readyz")[0] == 200
+        self.assertTrue(comes_true(ready))
+        server.stop()
+        server = self.serve("--job-memory-mb", "1")  # no worker can load the data in it
+        looks = [server.ask("GET", "/readyz") for _ in range(60) if not time.sleep(0.05)]
+        self.assertEqual({status for status, _, _ in looks}, {503})
+        self.assertIn("workers have not started", json.loads(looks[-1][2])["detail"])
+        self.assertEqual(server.ask("GET", "/healthz")[0], 200)
+
+    def test_a_clock_far_ahead_erases_nothing(self):
+        server = self.serve()
+        status, headers, _ = server.ask("POST", "/v1/checks", CHECK, ASYNC)
+        self.assertEqual(server.end_of(headers["Location"])["state"], "successful")
+        server.stop()
+        with contextlib.closing(sqlite3.connect(self.folder / "jobs.sqlite")) as store:
+            day = 24 * 3600 * 1000  # as if the clock were 400 days ahead
+            store.execute("UPDATE jobs SET created_ms = created_ms - 400 * ?, ended_ms = ended_ms - 400 * ?", (day, day))
+            store.commit()
+        server = self.serve()
+        self.assertEqual(server.ask("GET", headers["Location"] + "/result")[0], 200)
+
+    def test_a_row_of_an_unknown_state_hides_itself_alone(self):
+        server = self.serve()
+        jobs = []
+        for _ in range(2):
+            location = server.ask("POST", "/v1/checks", CHECK, ASYNC)[1]["Location"]
+            server.end_of(location)
+            jobs.append(location.split("/")[-1])
+        with contextlib.closing(sqlite3.connect(self.folder / "jobs.sqlite")) as store:
+            store.execute("UPDATE jobs SET state = 'lost' WHERE id = ?", (jobs[0],))
+            store.commit()
+        status, _, body = server.ask("GET", "/v1/jobs")
+        self.assertEqual((status, [job["id"] for job in json.loads(body)["jobs"]]), (200, jobs[1:]))
+        self.assertIn(jobs[0], json.loads(server.ask("GET", "/v1/jobs/" + jobs[0])[2])["detail"])
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
+
+    def test_a_coordinate_beyond_all_maps_is_refused(self):
+        server = self.serve()
+        status, _, body = server.ask("GET", "/v1/terrains/gale/profile?path=0,0,1e300,1e300")
+        self.assertEqual((status, json.loads(body)["faults"][0]["pointer"]), (422, "/path"))
+
+    def test_the_audit_log_knows_uploads_and_lets_nothing_pass_that_it_can_not_have(self):
+        audit, sent = self.folder / "audit.jsonl", b"x,y\n1,2\n"
+        server = self.serve("--audit", str(audit))
+        csv = {"Content-Type": "text/csv"}
+        self.assertEqual(server.ask("POST", "/v1/uploads?name=a.csv", sent, csv)[0], 201)
+        self.assertEqual(json.loads(audit.read_text())["body_sha256"], hashlib.sha256(sent).hexdigest())
+        server.stop()
+        server = self.serve("--audit", "/dev/full")
+        server.ask("POST", "/v1/uploads?name=a.csv", sent, csv)  # the first line that is not written
+        status, _, body = server.ask("POST", "/v1/uploads?name=b.csv", sent + sent, csv)
+        self.assertEqual(status, 507, body)
+        self.assertIn("/dev/full", json.loads(body)["detail"])
+        self.assertEqual(server.ask("GET", "/v1/jobs")[0], 200)
+
+
+class FullDisk(unittest.TestCase):
+    def test_what_fills_a_disk_can_be_stopped_on_it(self):
+        """Jobs are dismissed on a full disk, and the service says that it is not ready."""
+        with tempfile.TemporaryDirectory() as made:
+            if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m", "tmpfs", made], capture_output=True).returncode != 0:
+                self.skipTest("a small disk takes the right to mount one")
+            folder = pathlib.Path(made)
+            server = Server(folder, "--audit", str(folder / "audit.jsonl"))
+            try:
+                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+                location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
+                filling = folder / "filling"
+                with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
+                    while file.write(b"\0" * 65536):
+                        pass
+                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
+                self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
+                status, _, body = server.ask("DELETE", location)
+                self.assertEqual(status, 200, body)
+                filling.unlink()
+                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
+            finally:
+                server.stop()
+                subprocess.run(["umount", "-l", made], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
