@@ -280,8 +280,8 @@ TEST(FarPlan, TellsTheBestSoFarAndItsProgress) {
   const Result<Plan> plan = make_plan(problem, listens);
   ASSERT_TRUE(plan);
   ASSERT_FALSE(plan->routes.empty());
-  ASSERT_GE(listens.routes_.size(), 2U) << "one of the search, one of the simulation";
-  EXPECT_TRUE(listens.routes_.front().verdict.empty());
+  ASSERT_FALSE(listens.routes_.empty());
+  EXPECT_FALSE(listens.routes_.front().verdict.empty()) << "judged before other planners begin";
   EXPECT_FALSE(listens.routes_.back().verdict.empty());
   for (const RouteSoFar& route : listens.routes_) {
     EXPECT_GT(route.length_m, 800.0);

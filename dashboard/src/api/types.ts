@@ -28,7 +28,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Whether the service can take work: its store answers and every worker runs */
+        /** Whether the service can take work: its store answers, every worker has started, no disk is full */
         get: operations["readiness"];
         put?: never;
         post?: never;
@@ -714,7 +714,7 @@ export interface paths {
         put?: never;
         /**
          * Let a drive go whose check says NO-GO or UNKNOWN
-         * @description Asked twice: the first answer gives a confirmation, and the override stands when the same reason comes again with it. The check's verdict stays as it is. The audit log has both requests, who sent them and the reason.
+         * @description Asked twice: the first answer gives a confirmation, and the override stands when the same reason comes again with it, from another person unless the service was started with --override-persons 1. The check's verdict stays as it is. The audit log has both requests, who sent them and the reason.
          */
         post: operations["override_check"];
         delete?: never;
@@ -6941,6 +6941,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description forbidden: who asked for it can't confirm it */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description not_found: there is no check of this id */
             404: {
                 headers: {
@@ -6961,6 +6970,15 @@ export interface operations {
             };
             /** @description invalid_request */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: twenty that this person asked for wait for their confirmation */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
