@@ -99,13 +99,17 @@ class Searcher {
     sort_singles();
   }
 
-  // They grow from the best single effects, by seconds that promise a gain of so much at least.
+  // They grow from the best single effects, by seconds that promise a gain of so much at least. Causes from
+  // outside that are as good grow pairs too, and take no effect's place.
   void fit_pairs(double min_gain) {
     std::vector<std::size_t> seconds = possible_seconds();
-    for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.search.max_paired);
-         ++s) {
+    const auto most = static_cast<std::size_t>(options_.search.max_paired);
+    std::size_t effects_paired = 0;
+    for (std::size_t s = 0; s < singles_.size() && effects_paired < most; ++s) {
       const std::size_t base = singles_[s].second;
       const bool base_outside = is_outside(singles_[s].first);
+      if (base_outside && s >= most) continue;
+      effects_paired += base_outside ? 0 : 1;
       int fitted = 0, outside = 0;
       std::set<std::string> done;
       // Places that nothing but this effect leaves to be seen.
@@ -122,7 +126,8 @@ class Searcher {
         if (!from_outside && fitted >= options_.search.max_seconds) continue;
         const std::set<std::string> names{singles_[s].first, v.effect};
         if (pairs_.contains(names) || !done.insert(v.effect).second) continue;
-        progress_.report("fitting pairs of effects", 0.5 + 0.1 * static_cast<double>(s));
+        progress_.report("fitting pairs of effects",
+                         0.4 + 0.1 * static_cast<double>(std::max(effects_paired, std::size_t{1})));
         std::vector<EffectVariant> effects(search_.fits[base].hypothesis.effects().begin(),
                                            search_.fits[base].hypothesis.effects().end());
         effects.push_back(v);
