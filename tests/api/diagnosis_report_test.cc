@@ -67,8 +67,7 @@ TEST_F(AReportedDiagnosis, OffersNoDriveThatWouldTellNextToNothing) {
   d.next_drives.erase(d.next_drives.begin());
   EXPECT_EQ(offered(), 0U);
   const std::string report = diagnosis_report(campaign(), d, {}).markdown();
-  EXPECT_NE(report.find("none is expected to bring 0.05 bits"), std::string::npos)
-      << report;
+  EXPECT_NE(report.find("none is expected to bring 0.05 bits"), std::string::npos) << report;
 }
 
 }  // namespace
