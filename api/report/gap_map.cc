@@ -11,6 +11,7 @@
 
 #include "api/chart/base64.h"
 #include "api/chart/chart.h"
+#include "api/report/value_palette.h"
 #include "dem/write/hillshade.h"
 
 namespace slipway::api {
@@ -30,11 +31,10 @@ struct Level {
   const char* colour;
   const char* words;
 };
-// As those of slip on a map of routes: apart by lightness as well.
-constexpr std::array kLevels{Level{1.25, "#2c7bb6", "as the noise (below 1.25)"},
-                             Level{1.75, "#abd9e9", "1.25 to 1.75"}, Level{2.5, "#fdae61", "1.75 to 2.5"},
-                             Level{4.0, "#d7191c", "2.5 to 4"},
-                             Level{1e300, "#67001f", "above 4 deviations"}};
+constexpr std::array kLevels{
+    Level{1.25, kValuePalette[0], "as the noise (below 1.25)"}, Level{1.75, kValuePalette[1], "1.25 to 1.75"},
+    Level{2.5, kValuePalette[2], "1.75 to 2.5"}, Level{4.0, kValuePalette[3], "2.5 to 4"},
+    Level{1e300, kValuePalette[4], "above 4 deviations"}};
 
 struct LadderStep {
   const char* words;

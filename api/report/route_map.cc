@@ -13,6 +13,7 @@
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/report/thinned_ground.h"
+#include "api/report/value_palette.h"
 #include "core/angle.h"
 #include "dem/write/hillshade.h"
 
@@ -34,16 +35,15 @@ struct ValueColour {
   const char* colour;
   const char* words;
 };
-// Green to dark red, apart from each other for colour-blind eyes by lightness as well.
 constexpr std::array kSlipColours{
-    ValueColour{0.1, "#2c7bb6", "slip below 0.1"}, ValueColour{0.2, "#abd9e9", "0.1 to 0.2"},
-    ValueColour{0.4, "#fdae61", "0.2 to 0.4"}, ValueColour{0.6, "#d7191c", "0.4 to 0.6"},
-    ValueColour{10.0, "#67001f", "above 0.6"}};
+    ValueColour{0.1, kValuePalette[0], "slip below 0.1"}, ValueColour{0.2, kValuePalette[1], "0.1 to 0.2"},
+    ValueColour{0.4, kValuePalette[2], "0.2 to 0.4"}, ValueColour{0.6, kValuePalette[3], "0.4 to 0.6"},
+    ValueColour{10.0, kValuePalette[4], "above 0.6"}};
 // Of the stops and embeddings that are expected on a stretch.
 constexpr std::array kOutcomeColours{
-    ValueColour{0.001, "#2c7bb6", "stops or embeddings below 0.001"},
-    ValueColour{0.01, "#abd9e9", "0.001 to 0.01"}, ValueColour{0.1, "#fdae61", "0.01 to 0.1"},
-    ValueColour{0.5, "#d7191c", "0.1 to 0.5"}, ValueColour{1e9, "#67001f", "above 0.5"}};
+    ValueColour{0.001, kValuePalette[0], "stops or embeddings below 0.001"},
+    ValueColour{0.01, kValuePalette[1], "0.001 to 0.01"}, ValueColour{0.1, kValuePalette[2], "0.01 to 0.1"},
+    ValueColour{0.5, kValuePalette[3], "0.1 to 0.5"}, ValueColour{1e9, kValuePalette[4], "above 0.5"}};
 constexpr std::array kSoilColours{"#377eb8", "#984ea3", "#a65628", "#f781bf",
                                   "#66c2a5", "#e5c494", "#8da0cb", "#ffd92f"};
 

@@ -47,6 +47,12 @@ const mapColours = (p, { x, y }) =>
   }), [x, y]);
 const mapPicture = async (p) => (await p.locator(".map").screenshot()).toString("base64");
 
+async function settledAtTop(p) {
+  await settled(p);
+  await p.evaluate(() => window.scrollTo(0, 0));
+  await pause(300);
+}
+
 /** Nothing runs out of the screen, the map has room, no mark lies under a control. */
 async function wellLaid(p, screen) {
   const { width } = screens[screen].viewport;
@@ -209,9 +215,7 @@ test("390, finger: an example is a GO, a stretch says why, a goal is dragged", a
   await p.look("35_phone_empty");
   await p.locator('[data-example^="A short drive"]').tap();
   assert.equal(await p.verdict(), "go");
-  await settled(p);
-  await p.evaluate(() => window.scrollTo(0, 0));
-  await pause(300);
+  await settledAtTop(p);
   await wellLaid(p, "phone");
   await p.look("36_phone_go");
   await p.accessible("phone");
@@ -245,9 +249,7 @@ test("820, finger: a path is checked, and a terrain with polygons is added", asy
   await p.waitForSelector(".terrain select");
   await p.locator('[data-example^="A path onto"]').tap();
   assert.equal(await p.verdict(), "no_go");
-  await settled(p);
-  await p.evaluate(() => window.scrollTo(0, 0));
-  await pause(300);
+  await settledAtTop(p);
   await wellLaid(p, "tablet");
   await p.look("39_tablet_no_go");
   await p.plain("a check");

@@ -39,9 +39,8 @@
 namespace slipway::gap {
 namespace {
 
-// The options where a reference told what is healthy: less of the evidence is believed.
-DiagnosisOptions with_reference(DiagnosisOptions options) {
-  options.evidence.share *= options.reference.evidence_share;
+DiagnosisOptions with_evidence_share(DiagnosisOptions options, double share) {
+  options.evidence.share = share;
   return options;
 }
 
@@ -52,7 +51,7 @@ class Diagnoser {
  public:
   Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
       : campaign_(campaign),
-        options_(campaign.reference ? with_reference(options) : options),
+        options_(with_evidence_share(options, evidence_share(options, campaign.reference != nullptr))),
         progress_(progress) {
     d_.options = listed_options(options);
   }

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -25,6 +24,7 @@
 #include "api/documents/diagnosis/diagnosis_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/catalogue.h"
+#include "api/files/terrain_site.h"
 #include "api/files/whole_file.h"
 #include "api/json/faults.h"
 #include "core/largest_exact_whole.h"
@@ -159,12 +159,6 @@ Result<void> told_by_reference(const GapBenchmarkCommand& options, const api::Ca
   return {};
 }
 
-Result<std::string> bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
-  return std::string{std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::string file_of(const std::string& campaign, const Given& given) {
   if (given.oracle) return campaign + "-oracle.json";
   std::string file = campaign;
@@ -175,13 +169,13 @@ std::string file_of(const std::string& campaign, const Given& given) {
 // The decision alone, from what a search left with --keep-search.
 Result<Timed> decided_again(const GapBenchmarkCommand& options, const std::string& name, const Given& given) {
   const fs::path file = fs::path(options.replay) / file_of(name, given);
-  const auto bytes = bytes_of(file);
+  const auto bytes = api::read_data_file(file);
   if (!bytes) return fail(bytes.error());
   auto record = api::json::read_search_record(*bytes, file.string());
   if (!record) return fail(record.error());
   const gap::DiagnosisOptions how;
   gap::Diagnosis diagnosis;
-  const double share = how.evidence.share * (record->with_reference ? how.reference.evidence_share : 1.0);
+  const double share = gap::evidence_share(how, record->with_reference);
   gap::weigh(*record, share);
   const gap::Decision decision = gap::decide(*record, share, how.decision);
   diagnosis.campaign = name;
@@ -246,7 +240,7 @@ void tell(std::size_t number, std::size_t of, const std::string& name, const Tim
 
 // answers.json, with traces.csv where there is one.
 Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const fs::path& folder) {
-  const auto bytes = bytes_of(folder / "answers.json");
+  const auto bytes = api::read_data_file(folder / "answers.json");
   if (!bytes) return fail(bytes.error());
   auto answers = api::json::read_benchmark_answers(*bytes);
   if (!answers) return fail(answers.error());
@@ -254,7 +248,7 @@ Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const fs::path& fold
   for (gap::HiddenAnswer& answer : *answers) by_name.emplace(answer.campaign, std::move(answer));
   const fs::path traces_file = folder / "traces.csv";
   if (std::error_code error; !fs::exists(traces_file, error)) return by_name;
-  const auto text = bytes_of(traces_file);
+  const auto text = api::read_data_file(traces_file);
   if (!text) return fail(text.error());
   auto traces = api::read_hidden_traces_csv(traces_file.string(), *text);
   if (!traces) return fail(traces.error());

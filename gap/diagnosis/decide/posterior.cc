@@ -13,6 +13,10 @@ double SearchRecord::share_of(const std::string& cause) const {
   return own == causes.end() ? 0.0 : own->share;
 }
 
+double evidence_share(const DiagnosisOptions& options, bool with_reference) {
+  return with_reference ? options.evidence.share * options.reference.evidence_share : options.evidence.share;
+}
+
 void weigh(SearchRecord& record, double share) {
   rank(std::span(record.explanations), share);
 }

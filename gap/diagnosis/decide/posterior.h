@@ -4,8 +4,12 @@
 #include <string>
 
 #include "gap/diagnosis/decide/search_record.h"
+#include "gap/diagnosis/search/diagnosis_options.h"
 
 namespace slipway::gap {
+
+// The share of the log evidence that is believed: less of it where a reference told what is healthy.
+double evidence_share(const DiagnosisOptions& options, bool with_reference);
 
 // Writes each explanation's probability, see search/candidate.h; the most probable comes first.
 void weigh(SearchRecord& record, double share);

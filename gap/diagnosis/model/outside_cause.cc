@@ -36,6 +36,12 @@ std::string wheel_field(std::size_t k) {
   return fmt::format("wheel_{}", k);
 }
 
+std::vector<std::pair<std::string, double>> marks_of(std::span<const std::size_t> wheels) {
+  std::vector<std::pair<std::string, double>> marks;
+  for (const std::size_t k : wheels) marks.emplace_back(wheel_field(k), 1.0);
+  return marks;
+}
+
 std::vector<std::size_t> wheels_in(const OutsideValues& values) {
   std::vector<std::size_t> wheels;
   for (std::size_t k = 0; k < static_cast<std::size_t>(sim::kMaxWheels); ++k)

@@ -24,6 +24,7 @@ sim::EffectVariant outside_variant(std::vector<sim::EffectVariant::Free> free, s
                                    std::vector<std::pair<std::string, double>> fixed = {});
 // The field that marks the wheel of this index as one where a cause acts, and the indices so marked.
 std::string wheel_field(std::size_t wheel);
+std::vector<std::pair<std::string, double>> marks_of(std::span<const std::size_t> wheels);
 std::vector<std::size_t> wheels_in(const OutsideValues& values);
 std::vector<std::size_t> wheels_of_side(const sim::RoverModel& rover, double side);  // 1 left, -1 right
 std::string names_of_wheels(const sim::RoverModel& rover,

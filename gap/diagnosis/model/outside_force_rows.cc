@@ -72,10 +72,8 @@ std::vector<sim::EffectVariant> axle_forces(const DriveCampaign& campaign) {
   std::vector<sim::EffectVariant> all;
   for (const std::vector<std::size_t>& wheels : axles_of(*campaign.rover)) {
     if (wheels.size() < 2) continue;
-    std::vector<std::pair<std::string, double>> fixed;
-    for (const std::size_t k : wheels) fixed.emplace_back(wheel_field(k), 1.0);
     all.push_back(outside_variant({outside_number("force_n", kWheelForceShare * weight_n(campaign))},
-                                  names_of_wheels(*campaign.rover, wheels), std::move(fixed)));
+                                  names_of_wheels(*campaign.rover, wheels), marks_of(wheels)));
   }
   return all;
 }

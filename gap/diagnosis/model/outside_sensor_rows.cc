@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/outside_cause_rows.h"
@@ -21,10 +22,9 @@ std::vector<sim::EffectVariant> of_some_wheels(const sim::RoverModel& rover, con
   for (std::size_t k = 0; k < rover.wheels.size(); ++k)
     all.push_back(outside_variant({field}, rover.wheels[k].name, {{wheel_field(k), 1.0}}));
   for (const double side : {1.0, -1.0}) {
-    std::vector<std::pair<std::string, double>> wheels;
-    for (const std::size_t k : wheels_of_side(rover, side)) wheels.emplace_back(wheel_field(k), 1.0);
+    const std::vector<std::size_t> wheels = wheels_of_side(rover, side);
     if (wheels.size() > 1)
-      all.push_back(outside_variant({field}, side > 0.0 ? "left side" : "right side", std::move(wheels)));
+      all.push_back(outside_variant({field}, side > 0.0 ? "left side" : "right side", marks_of(wheels)));
   }
   return all;
 }
@@ -40,9 +40,9 @@ std::vector<sim::EffectVariant> current_offsets(const DriveCampaign& campaign) {
   const Free offset =
       outside_number("offset_a", std::max(kLeast_a, kDeviations * campaign.measurement_std.current_a));
   std::vector<sim::EffectVariant> all = of_some_wheels(*campaign.rover, offset);
-  std::vector<std::pair<std::string, double>> wheels;
-  for (std::size_t k = 0; k < campaign.rover->wheels.size(); ++k) wheels.emplace_back(wheel_field(k), 1.0);
-  all.push_back(outside_variant({offset}, "all wheels", std::move(wheels)));
+  std::vector<std::size_t> wheels(campaign.rover->wheels.size());
+  std::iota(wheels.begin(), wheels.end(), std::size_t{0});
+  all.push_back(outside_variant({offset}, "all wheels", marks_of(wheels)));
   return all;
 }
 
@@ -52,6 +52,12 @@ constexpr std::array kRead{Channel::kSideSlip, Channel::kYawRate, Channel::kCurr
 
 std::string channel_field(Channel channel) {
   return fmt::format("channel_{}", name_of(channel));
+}
+
+// That a cause acts on, of those that act on one of kRead.
+Channel channel_in(const Values& values) {
+  return *std::find_if(kRead.begin(), kRead.end(),
+                       [&](Channel channel) { return values.contains(channel_field(channel)); });
 }
 
 std::vector<sim::EffectVariant> of_each_channel(std::span<const Channel> channels, const Free& field) {
@@ -102,20 +108,23 @@ void for_each_reading(const WindowModel& model, std::vector<double>& predicted, 
     }
 }
 
+bool is_current_of(std::span<const std::size_t> wheels, const Observation& o) {
+  return o.channel == Channel::kCurrent && o.wheel >= 0 &&
+         std::find(wheels.begin(), wheels.end(), static_cast<std::size_t>(o.wheel)) != wheels.end();
+}
+
 void show_current_gain(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
   const std::vector<std::size_t> wheels = wheels_in(values);
   for_each_reading(model, predicted, [&](std::size_t, const Observation& o, double& value) {
-    if (o.channel == Channel::kCurrent && o.wheel >= 0 &&
-        std::find(wheels.begin(), wheels.end(), static_cast<std::size_t>(o.wheel)) != wheels.end())
-      value *= 1.0 + values.at("gain");
+    if (is_current_of(wheels, o)) value *= 1.0 + values.at("gain");
   });
 }
 
 void show_current_offset(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
+  const std::vector<std::size_t> wheels = wheels_in(values);
   for_each_reading(model, predicted, [&](std::size_t, const Observation& o, double& value) {
-    if (o.channel == Channel::kCurrent &&
-        (o.wheel < 0 || values.contains(wheel_field(static_cast<std::size_t>(o.wheel)))))
-      value += values.at("offset_a");
+    const bool is_mean = o.channel == Channel::kCurrent && o.wheel < 0;
+    if (is_mean || is_current_of(wheels, o)) value += values.at("offset_a");
   });
 }
 
@@ -129,8 +138,9 @@ void show_motion_offset(const Values& values, const WindowModel& model, std::vec
 
 // Yaw rates are minus the commanded one in the channel, and not in what a sensor reads.
 void show_scale(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
+  const Channel channel = channel_in(values);
   for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
-    if (!values.contains(channel_field(o.channel))) return;
+    if (o.channel != channel) return;
     const sim::DriveCommand& command = model.windows()[w].command;
     const double commanded = o.channel == Channel::kYawRate ? command.speed_m_s * command.curvature_1_m : 0.0;
     value += values.at("gain") * (value + commanded);
@@ -139,6 +149,7 @@ void show_scale(const Values& values, const WindowModel& model, std::vector<doub
 
 // Between the middles of a drive's windows readings are taken to change evenly.
 void show_delay(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
+  const Channel channel = channel_in(values);
   const std::vector<double> in_time = predicted;
   const auto windows = model.windows();
   const auto reading_of = [&](std::size_t w, const Observation& of) {
@@ -148,7 +159,7 @@ void show_delay(const Values& values, const WindowModel& model, std::vector<doub
     return kNotMeasured;
   };
   for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
-    if (!values.contains(channel_field(o.channel))) return;
+    if (o.channel != channel) return;
     // From the window before where it is late, from the one behind where it is early.
     const bool late = values.at("late_s") >= 0.0;
     if (late ? w == 0 : w + 1 == windows.size()) return;
@@ -237,21 +248,14 @@ std::string motion_offset_words(const Values& v, const DriveCampaign& /*campaign
                      std::abs(off), of_side_slip ? "" : " deg/s", off < 0.0 ? "right" : "left");
 }
 
-// "current", of a cause that acts on one channel.
-std::string_view channel_in(const Values& v) {
-  for (const Channel channel : kRead)
-    if (v.contains(channel_field(channel))) return name_of(channel);
-  return "";
-}
-
 std::string scale_words(const Values& v, const DriveCampaign& /*campaign*/) {
   const double times = 1.0 + v.at("gain");
-  return fmt::format("readings of {} are {:.3g} times what they should be{}", channel_in(v), times,
+  return fmt::format("readings of {} are {:.3g} times what they should be{}", name_of(channel_in(v)), times,
                      times < 0.0 ? ": they have the wrong sign" : "");
 }
 
 std::string delay_words(const Values& v, const DriveCampaign& /*campaign*/) {
-  return fmt::format("readings of {} come {:.2g} s {} than the positions", channel_in(v),
+  return fmt::format("readings of {} come {:.2g} s {} than the positions", name_of(channel_in(v)),
                      std::abs(v.at("late_s")), v.at("late_s") < 0.0 ? "earlier" : "later");
 }
 
