@@ -166,7 +166,7 @@ StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, con
                                                        const DriveCommand& command,
                                                        Thoroughness thoroughness) {
   StationState state = motion_on_slip_curves(rover_, stance, soils, command);
-  const Soil* modelled =
+  const auto modelled =
       std::find_if(soils.begin(), soils.end(), [](const Soil& s) { return s.slip_curve == nullptr; });
   if (modelled == soils.end() || !state.moving()) return state;
   PerWheel<Soil> replaced = soils;

@@ -36,24 +36,20 @@ RoverBalance::RoverBalance(const BalanceGeometry& geometry, const PerWheel<Soil>
 
 void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
   const std::size_t count = geometry_.wheels.size();
-  soils_ = soils;
-  numbers_ = PerWheel<WheelNumbers>(count);
-  contacts_ = PerWheel<WheelContact>(count);
-  in_air_ = PerWheel<bool>(count, false);
-  rut_shares_ = PerWheel<double>(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Soil& soil = soils_.emplace_back(soil_in_force(
+        soils[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0));
+    numbers_.push_back(numbers_of(geometry_.wheels[k].geometry, soil, 0.0, {}));
+    const double stiffening = soil.multipass_stiffening;
+    rut_shares_.push_back(stiffening > 0.0 ? rut_share(stiffening, soil.pressure.n) : 0.0);
+    follows_tracks_ |= remembers_tracks(soil) && !geometry_.command.turn_in_place;
+  }
+  if (follows_tracks_) fresh_ = numbers_;
+  contacts_.resize(count);
+  in_air_.resize(count, false);
+  share_in_track_.resize(count);
   in_contact_ = wheel_count();
   tracks_.setZero(wheel_count(), wheel_count());
-  share_in_track_ = PerWheel<double>(count);
-  fresh_ = PerWheel<WheelNumbers>(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (soils_[k].multipass_stiffening > 0.0)
-      rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
-    soils_[k] =
-        soil_in_force(soils_[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0);
-    numbers_[k] = numbers_of(geometry_.wheels[k].geometry, soils_[k], 0.0, {});
-    fresh_[k] = numbers_[k];
-    follows_tracks_ |= remembers_tracks(soils_[k]) && !geometry_.command.turn_in_place;
-  }
   if (geometry_.undetermined == 0) return;
   set_sinkage_scale();
   set_compatibility();
@@ -180,7 +176,7 @@ void RoverBalance::find_contacts_in_kernel(const Vector& unknowns) {
     numbers_[k].leftward = motion.leftward;
     contacts_[k] = {{}, motion, place(k).motion.rate_rad_s, 0.0};
   }
-  wheel_forces({numbers_.begin(), count}, {forces.data(), count});
+  wheel_forces({numbers_.data(), count}, {forces.data(), count});
   for (std::size_t k = 0; k < count; ++k) contacts_[k].forces = forces[k];
 }
 

@@ -193,7 +193,7 @@ class RoverBalance {
   PerWheel<bool> in_air_;
   bool follows_tracks_ = false, holds_tracks_ = false;  // see follows_tracks() and hold_tracks()
   TrackShares tracks_, held_tracks_;                    // at the last residual; where they were held last
-  PerWheel<WheelNumbers> fresh_;                        // of the wheels outside all tracks
+  PerWheel<WheelNumbers> fresh_;                        // outside all tracks, where any is followed
   PerWheel<double> share_in_track_, rut_shares_;
   int in_contact_;
   double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined

@@ -129,7 +129,7 @@ PerWheel<double> total_sinkages_m(const TrackShares& shares, const PerWheel<doub
                                   const PerWheel<double>& own_sinkage_m) {
   using Depths = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
   const Eigen::Index count = shares.rows();
-  const Eigen::Map<const Depths> own(own_sinkage_m.begin(), count), rut(rut_shares.begin(), count);
+  const Eigen::Map<const Depths> own(own_sinkage_m.data(), count), rut(rut_shares.data(), count);
   Depths added = own, total = own;
   for (Eigen::Index link = 1; link < count && !added.isZero(0.0); ++link) {
     added = rut.cwiseProduct(shares * added).eval();

@@ -5,19 +5,18 @@
 
 namespace slipway::sim {
 
-Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, double share_in_track) {
-  Soil met = soil;
-  met.gravity_m_s2 = gravity_m_s2;
+Soil soil_in_force(Soil soil, double gravity_m_s2, double rim_speed_m_s, double share_in_track) {
+  soil.gravity_m_s2 = gravity_m_s2;
   if (soil.rate_shear_exponent != 0.0) {
     const double ratio = std::max(rim_speed_m_s, 1e-4) / soil.rate_shear_speed_m_s;
     const double factor = std::pow(ratio, soil.rate_shear_exponent);
-    met.shear_modulus_x_m *= factor;
-    met.shear_modulus_y_m *= factor;
+    soil.shear_modulus_x_m *= factor;
+    soil.shear_modulus_y_m *= factor;
   }
   if (soil.gravity_exponent != 0.0)
-    met.stiffen(std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent));
-  put_in_track(met, share_in_track);
-  return met;
+    soil.stiffen(std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent));
+  put_in_track(soil, share_in_track);
+  return soil;
 }
 
 bool remembers_tracks(const Soil& soil) {

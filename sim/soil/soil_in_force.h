@@ -8,7 +8,7 @@ namespace slipway::sim {
 // soil_gravity), at the wheel's rim speed (effect rate_shear) and, for the share of the wheel's width that
 // stands in the track of an earlier wheel, compacted (effect multipass) and without soil to push before it,
 // or less of it (effect bulldozing).
-Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, double share_in_track);
+Soil soil_in_force(Soil soil, double gravity_m_s2, double rim_speed_m_s, double share_in_track);
 
 // Whether a track differs from fresh soil.
 bool remembers_tracks(const Soil& soil);
