@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "api/departure_setting.h"
 #include "api/files/relief_values.h"
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
@@ -143,6 +144,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
       add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);
   }
   relief(drive);
+  departure(drive);
   if (rover_ != nullptr) failed_wheels(drive);
   drive_so_far(drive);
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
@@ -152,6 +154,15 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
         fmt::format("speed_m_s = {} m/s, must be in [{:g}, {:.6g}]: the motors of {} turn no faster",
                     *drive.speed_m_s, RequestLimits::kMinSpeed_m_s, fastest, rover_->name));
   }
+}
+
+void RequestCheck::departure(const DriveAssumptions& drive) {
+  if (!drive.departure || already_faulty("/departure")) return;
+  if (site_ != nullptr && drive.departure->table.empty())
+    if (auto why = why_no_sky(*site_)) add(ErrorCode::kInvalidRequest, "/departure/sky", std::move(*why));
+  if (rover_ != nullptr && !rover_->power && drive.departure->rules.min_charge)
+    add(ErrorCode::kInvalidRequest, "/departure/min_charge_percent",
+        fmt::format("the file of {} has no power, of which a charge could be told", rover_->name));
 }
 
 void RequestCheck::failed_wheels(const DriveAssumptions& drive) {

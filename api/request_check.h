@@ -45,6 +45,7 @@ class RequestCheck {
  private:
   void failed_wheels(const DriveAssumptions& drive);
   void drive_so_far(const DriveAssumptions& drive);
+  void departure(const DriveAssumptions& drive);
   void relief(const DriveAssumptions& drive);
   void add(ErrorCode code, std::string pointer, std::string message);
   bool already_faulty(std::string_view pointer) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/departure_setting.h"
 #include "api/documents/drive_assumptions.h"
 #include "api/files/model_folder.h"
 #include "api/files/relief_values.h"
@@ -46,6 +47,7 @@ std::string conditions_of(const std::string& terrain, const std::string& rover, 
   if (drive.model) return {};
   drive.as_of_sol.reset();
   drive.drive_so_far.reset();
+  drive.departure.reset();
   drive.draws = draws;
   json::Writer w;
   w.begin_object().text("terrain", terrain).text("rover", rover);
@@ -218,6 +220,11 @@ Result<DriveSetting> set_up(const Service& service, const std::string& terrain, 
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
     setting.provenance.measured_m = evidence->measured_m;
+  }
+  if (drive.departure) {
+    auto departure = departure_of(site, problem.terrain, places.front(), *drive.departure);
+    if (!departure) return fail(departure.error());
+    problem.departure = std::move(*departure);
   }
   if (drive.drive_so_far)
     if (auto learnt = learn(drive, progress, setting); !learnt) return fail(learnt.error());

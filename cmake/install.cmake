@@ -4,7 +4,7 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slipway)
-set(rooms core dem sim steps planner gap campaign api)
+set(rooms core sky dem sim steps planner gap campaign api)
 
 install(TARGETS slipway RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 # The practice campaigns but two, and the scores of sealed campaigns, are the study's.

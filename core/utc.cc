@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <ctime>
 
@@ -12,6 +13,35 @@ std::string utc_text(std::int64_t ms) {
   constexpr std::int64_t kPerSecond = 1000;
   const auto seconds = static_cast<std::time_t>(ms / kPerSecond);
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), ms % kPerSecond);
+}
+
+std::optional<std::int64_t> utc_of_text(std::string_view text) {
+  // 2026-07-01T12:00:00[.123]Z
+  constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:dd";
+  if (text.size() <= kForm.size() || text.back() != 'Z') return std::nullopt;
+  for (std::size_t k = 0; k < kForm.size(); ++k)
+    if (kForm[k] == 'd' ? text[k] < '0' || text[k] > '9' : text[k] != kForm[k]) return std::nullopt;
+  const auto number = [&](std::size_t first, std::size_t count) {
+    int value = 0;
+    std::from_chars(text.data() + first, text.data() + first + count, value);
+    return value;
+  };
+  std::string_view fraction = text.substr(kForm.size(), text.size() - kForm.size() - 1);
+  std::int64_t ms = 0;
+  if (!fraction.empty()) {
+    if (fraction.front() != '.' || fraction.size() < 2) return std::nullopt;
+    fraction.remove_prefix(1);
+    if (fraction.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+    constexpr std::size_t kDigits = 3;
+    for (std::size_t k = 0; k < kDigits; ++k) ms = 10 * ms + (k < fraction.size() ? fraction[k] - '0' : 0);
+  }
+  using namespace std::chrono;  // NOLINT: names of the calendar
+  const year_month_day date{year(number(0, 4)), month(static_cast<unsigned>(number(5, 2))),
+                            day(static_cast<unsigned>(number(8, 2)))};
+  const int hour = number(11, 2), minute = number(14, 2), second = number(17, 2);
+  if (!date.ok() || hour > 23 || minute > 59 || second > 59) return std::nullopt;
+  const auto days = sys_days(date).time_since_epoch().count();
+  return ((days * 24LL + hour) * 60LL + minute) * 60'000LL + second * 1000LL + ms;
 }
 
 std::int64_t now_ms() {

@@ -26,6 +26,7 @@
 #include "planner/search/propose.h"
 #include "planner/search/search_window.h"
 #include "planner/search/stage_progress.h"
+#include "planner/timing/departures.h"
 
 namespace slipway::planner {
 namespace {
@@ -72,6 +73,8 @@ class Planning {
     if (!simulated) return fail(simulated.error());
     const Result<void> verified = verify(plan);
     if (!verified) return fail(verified.error());
+    set_departures(plan);
+    if (progress_.cancelled()) return cancelled();
     say_why_fewer(*proposal, plan);
     progress_.report("ranking", 0.98);
     mark_pareto_front(plan.routes);
@@ -218,6 +221,14 @@ class Planning {
     route.dynamic = std::move(*verified);
     judge_outcome(problem_, route);
     return {};
+  }
+
+  // When each route may be driven; one that no departure allows is ranked behind the others.
+  void set_departures(Plan& plan) const {
+    if (!problem_.departure) return;
+    StageProgress stage(progress_, "looking for departures", kSimulated, kSimulated);
+    for (Route& route : plan.routes) add_departures(problem_, route.prediction, route.decision, stage);
+    rank(plan);
   }
 
   // What would make the first route better; only what was tried.

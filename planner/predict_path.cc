@@ -15,6 +15,7 @@
 #include "planner/problem/motion.h"
 #include "planner/problem/terrain_ground.h"
 #include "planner/search/plan_faults.h"
+#include "planner/timing/departures.h"
 
 namespace slipway::planner {
 namespace {
@@ -129,6 +130,7 @@ DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>
                            const Manner& manner, const sim::DrivePrediction& prediction,
                            const DynamicVerification* dynamic, Progress& progress) {
   DriveVerdict verdict = judge_drive(problem, prediction, {.motions = &motions, .dynamic = dynamic});
+  add_departures(problem, prediction, verdict, progress);
   auto shorter = shorter_drive(problem, stations_of(problem, motions, manner), prediction, verdict, progress);
   for (auto&& advice : {std::move(shorter), scout_drive(problem, prediction, verdict)})
     if (advice) verdict.advice.push_back(*advice);

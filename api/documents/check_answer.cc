@@ -46,6 +46,8 @@ void write_rule(Writer& w, const sim::RuleRisk& rule, const sim::DrivePrediction
   w.end_object();
 }
 
+}  // namespace
+
 void write_judged_rule(Writer& w, const planner::JudgedRule& rule) {
   w.begin_object().text("rule", rule.name).text("verdict", planner::describe(rule.verdict));
   w.text("words", rule.words).text("unit", rule.unit);
@@ -55,6 +57,8 @@ void write_judged_rule(Writer& w, const planner::JudgedRule& rule) {
   if (rule.at_m) w.metres("at_m", *rule.at_m);
   w.end_object();
 }
+
+namespace {
 
 void write_advice(Writer& w, const planner::Advice& advice) {
   w.begin_object().text("kind", planner::describe(advice.kind)).text("words", advice.words);
@@ -73,7 +77,9 @@ void write_decision(Writer& w, const planner::DriveVerdict& decision) {
   for (const planner::JudgedRule& rule : decision.rules) write_judged_rule(w, rule);
   w.end_array().key("advice").begin_array();
   for (const planner::Advice& advice : decision.advice) write_advice(w, advice);
-  w.end_array().end_object();
+  w.end_array();
+  if (decision.departures) write_departures(w, *decision.departures);
+  w.end_object();
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "api/documents/drive_assumptions.h"
 
+#include "api/documents/departure.h"
 #include "api/documents/drive_so_far.h"
 #include "api/documents/model_object.h"
 #include "api/files/effect_settings.h"
@@ -34,6 +35,7 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   reader.number("segment_m", kOptional, {"m", RequestLimits::kMinSegment_m, RequestLimits::kPathLength_m},
                 drive.segment_m);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
+  read_departure(reader, drive.departure);
   read_whole_model(reader, drive.model);
 }
 
@@ -61,6 +63,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
   if (drive.segment_m) w.exact("segment_m", *drive.segment_m);
   if (drive.conditions.motor_temp_c) w.exact("motor_temp_c", *drive.conditions.motor_temp_c);
+  if (drive.departure) write_departure(w, *drive.departure);
   if (drive.model) write_model_reference(w.key("model"), *drive.model);
 }
 

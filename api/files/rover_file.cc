@@ -248,6 +248,10 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   read_motor(reader, "drive", kRequired, rover.drive);
   if (sim::DriveMotor steering; read_motor(reader, "steering", kOptional, steering))
     rover.steering = steering;
+  if (auto power = reader.object("power", kOptional)) {
+    read_fields(*power, sim::power_fields(), kRequired, rover.power.emplace());
+    power->refuse_unknown();
+  }
   read_fields(reader, sim::closure_fields(), kRequired, rover);
   read_fields(reader, sim::body_fields(), kRequired, rover);
   read_effects(reader, rover.effects);
@@ -298,6 +302,10 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   write_suspension(w, rover);
   write_motor(w, "drive", rover.drive);
   if (rover.steering) write_motor(w, "steering", *rover.steering);
+  if (rover.power) {
+    write_fields(w.key("power").begin_object(), sim::power_fields(), *rover.power);
+    w.end_object();
+  }
   write_fields(w, sim::closure_fields(), rover);
   write_fields(w, sim::body_fields(), rover);
   if (!rover.effects.empty()) write_effects(w, rover.effects);

@@ -85,6 +85,7 @@ void refuse_what_is_of_drives(ObjectReader& reader, const DriveAssumptions& driv
   refuse(drive.as_of_sol.has_value(), "as_of_sol");
   refuse(drive.drive_so_far.has_value(), "drive_so_far");
   refuse(drive.relief.has_value(), "relief");
+  refuse(drive.departure.has_value(), "departure");
 }
 
 void write_classes(Writer& w, const MapAnswer& answer) {

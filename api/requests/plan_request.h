@@ -9,6 +9,7 @@
 #include "api/files/drive_rules.h"
 #include "api/files/terrain_description.h"
 #include "core/result.h"
+#include "planner/problem/departure.h"
 #include "planner/problem/drive_so_far.h"
 #include "planner/problem/problem.h"
 #include "sim/effects/effect_catalogue.h"
@@ -24,6 +25,11 @@ struct RequestedModel {
   std::string diagnosis;            // the job's id
   std::vector<std::string> ground;  // soils of the terrain that are the model's, see with_model()
   std::shared_ptr<const ModelFolder> corrected;
+};
+
+// When a drive may begin, without what the terrain gives of the sky.
+struct DepartureRequest : planner::Departure {
+  std::vector<sky::SkySample> table;  // by rising times; empty: by formulas, on Mars
 };
 
 // The assumptions with which a drive is predicted, whether its path is planned or given. The defaults are
@@ -45,7 +51,8 @@ struct DriveAssumptions : DriveRules {
   // Length of the segments by which a drive is decided; where it is empty, a drive of a kilometre and more
   // has segments of kSegment_m, and no other has any.
   std::optional<double> segment_m;
-  std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
+  std::optional<double> speed_m_s;  // the rover's cruise speed where it is empty
+  std::optional<DepartureRequest> departure;
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's
 };
 
@@ -84,6 +91,8 @@ struct RequestLimits {
   static constexpr double kMinSpeed_m_s = 1e-4;  // slower drives take longer than any mission
   static constexpr double kMinSegment_m = 10.0;
   static constexpr int kRoutes = 8;
+  static constexpr std::size_t kSkyMoments = 20'000;
+  static constexpr int kDepartures = 2000;  // that are tried
   static constexpr int kDraws = 2000;
   static constexpr int kMaxSol = 1'000'000;
 };

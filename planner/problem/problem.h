@@ -16,6 +16,8 @@
 
 namespace slipway::planner {
 
+struct Departure;
+
 using Polygon = std::vector<Eigen::Vector2d>;  // map metres, closed implicitly, at least three corners
 
 // How the rover stands to its direction of travel.
@@ -58,7 +60,8 @@ struct PlanProblem {
   sim::RiskOptions risk;
   // How many of risk.draws rank the candidates at first, where these are many; 0: all of them.
   int ranking_draws = 0;
-  std::size_t threads = 0;  // 0: as many as the machine has
+  std::shared_ptr<const Departure> departure;  // where it is asked when the drive may begin
+  std::size_t threads = 0;                     // 0: as many as the machine has
 
   // Start, waypoints in their order, goal.
   std::vector<Waypoint> places() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,13 +51,16 @@ struct Advice {
 // "shorter_drive", "other_route", "scout_drive".
 std::string_view describe(Advice::Kind kind);
 
+struct Departures;
+
 // What an operator is told. The verdict is NO-GO where any rule says so, else UNKNOWN where any rule is open,
 // else GO.
 struct DriveVerdict {
   Verdict verdict = Verdict::kUnknown;
-  std::vector<JudgedRule> rules;     // the ones that decide first
-  std::vector<std::string> reasons;  // in words and numbers, the one that decides first
-  std::vector<Advice> advice;        // what would make it better; none of a GO
+  std::vector<JudgedRule> rules;                 // the ones that decide first
+  std::vector<std::string> reasons;              // in words and numbers, the one that decides first
+  std::vector<Advice> advice;                    // what would make it better; none of a GO
+  std::shared_ptr<const Departures> departures;  // where it was asked when the drive may begin
 };
 
 }  // namespace slipway::planner

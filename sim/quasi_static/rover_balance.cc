@@ -37,8 +37,8 @@ RoverBalance::RoverBalance(const BalanceGeometry& geometry, const PerWheel<Soil>
 void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
   const std::size_t count = geometry_.wheels.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const Soil& soil = soils_.emplace_back(soil_in_force(
-        soils[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0));
+    const Soil& soil = soils_.emplace_back(
+        soil_in_force(soils[k], geometry_.gravity_m_s2, geometry_.wheels[k].commanded_rim_speed_m_s, 0.0));
     numbers_.push_back(numbers_of(geometry_.wheels[k].geometry, soil, 0.0, {}));
     const double stiffening = soil.multipass_stiffening;
     rut_shares_.push_back(stiffening > 0.0 ? rut_share(stiffening, soil.pressure.n) : 0.0);

@@ -140,6 +140,41 @@ constexpr std::array kMotor{
                            .writing = kUnlessInitial},
 };
 
+constexpr std::array kPower{
+    ModelField<PowerSupply>{
+        .field = {"constant_w", "W", "of a source that gives the same all day", 0.0, 1e5, 110.0},
+        .number = [](PowerSupply& p) -> double& { return p.constant_w; },
+        .presence = kOptional},
+    ModelField<PowerSupply>{
+        .field = {"array_m2", "m^2", "of solar cells, flat on the body", 0.0, 1000.0, 1.3},
+        .number = [](PowerSupply& p) -> double& { return p.array_m2; },
+        .presence = kOptional},
+    ModelField<PowerSupply>{
+        .field = {"array_efficiency", "1", "power over the light on clean cells", 0.0, 1.0, 0.2},
+        .number = [](PowerSupply& p) -> double& { return p.array_efficiency; },
+        .presence = kOptional},
+    ModelField<PowerSupply>{
+        .field = {"array_clean", "1", "share of the light that dust on the cells lets through", 0.0, 1.0,
+                  1.0},
+        .number = [](PowerSupply& p) -> double& { return p.array_clean; },
+        .presence = kOptional},
+    ModelField<PowerSupply>{
+        .field = {"battery_wh", "Wh", "that may be used, from empty to full", 1.0, 1e6, 500.0},
+        .number = [](PowerSupply& p) -> double& { return p.battery_wh; }},
+    ModelField<PowerSupply>{.field = {"standing_w", "W", "that a standing rover needs", 0.0, 1e5, 50.0},
+                            .number = [](PowerSupply& p) -> double& { return p.standing_w; }},
+    ModelField<PowerSupply>{
+        .field = {"driving_w", "W", "that a driving rover needs besides its drive motors", 0.0, 1e5, 100.0},
+        .number = [](PowerSupply& p) -> double& { return p.driving_w; }},
+    ModelField<PowerSupply>{.field = {"heating_w", "W", "of heaters, besides, in cold air", 0.0, 1e5, 0.0},
+                            .number = [](PowerSupply& p) -> double& { return p.heating_w; },
+                            .presence = kOptional},
+    ModelField<PowerSupply>{
+        .field = {"heating_below_c", "degC", "the air below which heaters work", -273.0, 100.0, -200.0},
+        .number = [](PowerSupply& p) -> double& { return p.heating_below_c; },
+        .presence = kOptional},
+};
+
 constexpr std::array kClosures{
     ModelField<RoverModel>{.field = {"pull_below_axle", "1",
                                      "share of a wheel's pull that acts at the rim's lowest "
@@ -209,6 +244,9 @@ std::span<const ModelField<Suspension>> bogie_fields() {
 std::span<const ModelField<DriveMotor>> motor_fields() {
   return kMotor;
 }
+std::span<const ModelField<PowerSupply>> power_fields() {
+  return kPower;
+}
 std::span<const ModelField<RoverModel>> closure_fields() {
   return kClosures;
 }
@@ -247,6 +285,8 @@ template void check_fields(std::span<const ModelField<WheelModel>>, const WheelM
 template void check_fields(std::span<const ModelField<Grousers>>, const Grousers&, const std::string&,
                            std::vector<Fault>&);
 template void check_fields(std::span<const ModelField<Suspension>>, const Suspension&, const std::string&,
+                           std::vector<Fault>&);
+template void check_fields(std::span<const ModelField<PowerSupply>>, const PowerSupply&, const std::string&,
                            std::vector<Fault>&);
 template void check_fields(std::span<const ModelField<DriveMotor>>, const DriveMotor&, const std::string&,
                            std::vector<Fault>&);

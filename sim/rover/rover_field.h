@@ -20,6 +20,7 @@ std::span<const ModelField<Grousers>> grouser_fields();
 std::span<const ModelField<Suspension>> differential_fields();  // of suspensions with rockers
 std::span<const ModelField<Suspension>> bogie_fields();         // of a rocker-bogie besides
 std::span<const ModelField<DriveMotor>> motor_fields();
+std::span<const ModelField<PowerSupply>> power_fields();
 std::span<const ModelField<RoverModel>> closure_fields();
 std::span<const ModelField<RoverModel>> body_fields();
 

@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "sim/rover/effect_setting.h"
 #include "sim/rover/motor.h"
+#include "sim/rover/power_supply.h"
 #include "sim/wheel/per_wheel.h"
 #include "sim/wheel/wheel_forces.h"
 
@@ -96,6 +97,7 @@ struct RoverModel {
   MassDistribution masses;
   DriveMotor drive;
   std::optional<DriveMotor> steering = {};  // of each steerable wheel; nothing: motors like the drive's
+  std::optional<PowerSupply> power = {};    // nothing where no source gives it
   // Where a wheel's pull acts on the vehicle: 0, as the laws have it, with the soil's resistance ahead of the
   // axle; 1, at the rim's lowest point and nothing ahead of it, as simpler simulators have it. Read by the
   // balance; a closure that a diagnosis may re-tune.

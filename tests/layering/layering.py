@@ -10,15 +10,16 @@ root = pathlib.Path(sys.argv[1])
 # room -> the other rooms that it may include. docs/architecture.md draws the same.
 MAY_SEE = {
     "core": set(),
+    "sky": {"core"},
     "dem": {"core"},
     "sim": {"core"},
     "steps": {"core", "sim"},
-    "planner": {"core", "dem", "sim"},
+    "planner": {"core", "sky", "dem", "sim"},
     "gap": {"core", "sim"},
-    "campaign": {"core", "dem", "sim", "steps", "planner", "gap"},
-    "api": {"core", "dem", "sim", "steps", "planner", "gap", "campaign"},
-    "server": {"core", "dem", "sim", "steps", "planner", "gap", "campaign", "api"},
-    "research": {"core", "dem", "sim", "steps", "planner", "gap", "campaign", "api", "server"},
+    "campaign": {"core", "sky", "dem", "sim", "steps", "planner", "gap"},
+    "api": {"core", "sky", "dem", "sim", "steps", "planner", "gap", "campaign"},
+    "server": {"core", "sky", "dem", "sim", "steps", "planner", "gap", "campaign", "api"},
+    "research": {"core", "sky", "dem", "sim", "steps", "planner", "gap", "campaign", "api", "server"},
 }
 
 # room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
@@ -26,7 +27,7 @@ MAY_SEE = {
 FOLDERS = {
     "dem": [".", "import", "write"],
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
-    "planner": ["problem", "search", "judge", "maps", "."],
+    "planner": ["problem", "search", "timing", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/follow", "diagnosis/decide", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "steps", "uploads", "requests", "jobs",
             "documents", {"documents/soil", "documents/diagnosis"}, "export", "terrain_views", "report", "maps", "."],

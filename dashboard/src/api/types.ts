@@ -967,6 +967,7 @@ export interface components {
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
             motor_temp_c?: number;
+            departure?: components["schemas"]["DepartureRequest"];
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
                 /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
@@ -1029,6 +1030,7 @@ export interface components {
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
             motor_temp_c?: number;
+            departure?: components["schemas"]["DepartureRequest"];
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
                 /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
@@ -2607,6 +2609,27 @@ export interface components {
             wheel_weight?: number;
             /** @description Where a wheel's pull acts on the rover: 0 at the axle, with the soil's resistance ahead of it; 1 at the rim's lowest point [1]; absent: 0 */
             pull_below_axle?: number;
+            /** @description What feeds the rover and what it needs, in watts at the bus; absent: not known */
+            power?: {
+                /** @description Of a source that gives the same all day [W] */
+                constant_w?: number;
+                /** @description Solar cells, flat on the body [m^2] */
+                array_m2?: number;
+                /** @description Power over the light on clean cells */
+                array_efficiency?: number;
+                /** @description Share of the light that dust on the cells lets through */
+                array_clean?: number;
+                /** @description That may be used, from empty to full [Wh] */
+                battery_wh?: number;
+                /** @description That a standing rover needs [W] */
+                standing_w?: number;
+                /** @description That a driving rover needs besides its drive motors [W] */
+                driving_w?: number;
+                /** @description Of heaters, besides, in cold air [W] */
+                heating_w?: number;
+                /** @description The air below which heaters work [degC] */
+                heating_below_c?: number;
+            };
             belly_clearance_m?: number;
             body_length_m?: number;
             body_width_m?: number;
@@ -3170,10 +3193,180 @@ export interface components {
             rules: components["schemas"]["JudgedRule"][];
             /** @description What would make it better; none of a GO */
             advice: components["schemas"]["Advice"][];
+            departures?: components["schemas"]["Departures"];
+        };
+        /** @description When the drive may begin, and what must hold from the departure to the arrival: of what is not asked for nothing is judged */
+        DepartureRequest: {
+            /**
+             * Format: date-time
+             * @description The first departure, in UTC: 2026-07-01T12:00:00Z
+             */
+            from: string;
+            /**
+             * Format: date-time
+             * @description The last; the first when absent
+             */
+            to?: string;
+            /** @description Between the departures that are tried, at most 2000 [min]; the ends of windows are then found to a second */
+            every_min?: number;
+            /** @description Of the battery at the departure [%] */
+            charge_percent?: number;
+            /** @description Of the dust in the atmosphere */
+            optical_depth?: number;
+            /** @description Temperature of the air over the day, for the heaters of the rover's file */
+            air?: {
+                /** @description Of the day [degC] */
+                coldest_c: number;
+                /** @description Two hours after noon [degC] */
+                warmest_c: number;
+            };
+            /** @description The battery must not fall below this on the way [%] */
+            min_charge_percent?: number;
+            /** @description The sun must be over the ground's horizon and so high all the way, for cameras [deg] */
+            min_sun_deg?: number;
+            /** @description The same of the Earth, for a link [deg] */
+            min_earth_deg?: number;
+            /** @description The sun must stay over the horizon so long after the arrival [h] */
+            light_left_h?: number;
+            /**
+             * Format: date-time
+             * @description The rover must have arrived
+             */
+            arrive_by?: string;
+            /** @description Where sun and Earth stand over the start, by rising times; along great circles between them. On Mars they are computed when it is absent [Allison and McEwen 2000] */
+            sky?: {
+                /**
+                 * Format: date-time
+                 * @description UTC
+                 */
+                at: string;
+                /** @description Clockwise from north [deg] */
+                sun_azimuth_deg: number;
+                /** @description Over the level [deg] */
+                sun_elevation_deg: number;
+                /** @description With every moment, or with none [deg] */
+                earth_azimuth_deg?: number;
+                /** @description With every moment, or with none [deg] */
+                earth_elevation_deg?: number;
+            }[];
+        };
+        /** @description A drive from one departure on */
+        DepartedDrive: {
+            /**
+             * Format: date-time
+             * @description UTC
+             */
+            departs: string;
+            /**
+             * Format: date-time
+             * @description At the median pace of the draws that come to the end
+             */
+            arrives: string;
+            /**
+             * Format: date-time
+             * @description At the pace that 95 % of these draws keep
+             */
+            arrives_late: string;
+            /** @description Of the battery at the arrival, at the median pace and energy [%] */
+            charge_percent: number;
+            /** @description The same at the 95th percentile of both [%] */
+            charge_low_percent: number;
+            /** @description On the way, at the median pace and energy [%] */
+            least_charge_percent: number;
+            /** @description The same at the 95th percentile of both [%] */
+            least_charge_low_percent: number;
+            /** @description Share of the time in which the sun is over the ground's horizon */
+            lit_share: number;
+            /** @description From source and cells [Wh]. Charge at the departure + gained - used - spilled = charge at the arrival */
+            gained_wh: number;
+            /** @description By motors, heaters and all else [Wh] */
+            used_wh: number;
+            /** @description What a full battery could not take [Wh] */
+            spilled_wh: number;
+            /** @description The rules of the day that it does not keep */
+            broken: string[];
+            rules: components["schemas"]["JudgedRule"][];
+            /** @description At most some 400 of them */
+            stations: {
+                /** @description Along the drive [m] */
+                distance_m: number;
+                /**
+                 * Format: date-time
+                 * @description When the rover is there, at the median pace
+                 */
+                at: string;
+                /** @description The sun is over the ground's horizon */
+                lit: boolean;
+                /** @description Elevation of the sun less that of the ground's horizon below it [deg] */
+                sun_over_horizon_deg: number;
+                /** @description From source and cells [W] */
+                in_w: number;
+                /** @description By motors, heaters and all else [W] */
+                out_w: number;
+                /** @description Of the battery, at the median pace and energy [%] */
+                charge_percent: number;
+                /** @description The same at the 95th percentile of both [%] */
+                charge_low_percent: number;
+            }[];
+        };
+        /** @description When the drive may begin; where the request asks for it */
+        Departures: {
+            /** @description Departures from which all that is asked of the day holds, at the median and at the slow pace */
+            windows: {
+                /** Format: date-time */
+                from: string;
+                /** Format: date-time */
+                to: string;
+            }[];
+            /** @description The departure of the windows that keeps most in the battery; without windows the one that a halt makes keep the rules; null where none does */
+            best: components["schemas"]["DepartedDrive"] | null;
+            /** @description That best needs; null where it needs none */
+            halt: {
+                /** @description Along the drive [m] */
+                at_m: number;
+                hours: number;
+            } | null;
+            /** @description Without a best departure, the one that breaks fewest rules */
+            nearest?: components["schemas"]["DepartedDrive"];
+            tried: {
+                /**
+                 * Format: date-time
+                 * @description UTC
+                 */
+                departs: string;
+                /**
+                 * Format: date-time
+                 * @description At the median pace of the draws that come to the end
+                 */
+                arrives: string;
+                /**
+                 * Format: date-time
+                 * @description At the pace that 95 % of these draws keep
+                 */
+                arrives_late: string;
+                /** @description Of the battery at the arrival, at the median pace and energy [%] */
+                charge_percent: number;
+                /** @description The same at the 95th percentile of both [%] */
+                charge_low_percent: number;
+                /** @description On the way, at the median pace and energy [%] */
+                least_charge_percent: number;
+                /** @description The same at the 95th percentile of both [%] */
+                least_charge_low_percent: number;
+                /** @description Share of the time in which the sun is over the ground's horizon */
+                lit_share: number;
+                /** @description From source and cells [Wh]. Charge at the departure + gained - used - spilled = charge at the arrival */
+                gained_wh: number;
+                /** @description By motors, heaters and all else [Wh] */
+                used_wh: number;
+                /** @description What a full battery could not take [Wh] */
+                spilled_wh: number;
+                /** @description The rules of the day that it does not keep */
+                broken: string[];
+            }[];
         };
         /** @description What one rule says of a drive: the probabilities of a halt, of being immobilised and of embedding, and every limit that breaks on the mean soils */
         JudgedRule: {
-            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics";
+            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics" | "charge" | "sun" | "earth" | "light_left" | "arrival" | "sky";
             verdict: components["schemas"]["Verdict"];
             /** @description A sentence without its full stop */
             words: string;
@@ -3280,6 +3473,7 @@ export interface components {
             speed_m_s?: number;
             /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
             motor_temp_c?: number;
+            departure?: components["schemas"]["DepartureRequest"];
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
                 /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */

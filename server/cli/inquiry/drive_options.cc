@@ -115,6 +115,21 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
                      fmt::format("a wheel whose drive has failed, WHEEL={}",
                                  fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
   command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
+  CLI::Option* const depart = command.add_option(
+      "--depart", drive.depart,
+      "when the drive may begin, FROM..TO in UTC, 2016-03-22T09:00:00Z..2016-03-22T14:00:00Z: says in which "
+      "windows all that is asked of the day holds, and what the battery does");
+  command
+      .add_option("--day", drive.day,
+                  "what is asked and known of the day, NAME=VALUE: every_min, charge_percent, optical_depth, "
+                  "min_charge_percent, min_sun_deg, min_earth_deg, light_left_h, arrive_by")
+      ->needs(depart);
+  command
+      .add_option(
+          "--sky", drive.sky,
+          "file with the directions of sun and Earth, as the list sky of a departure; on Mars they are "
+          "computed where it is not given")
+      ->needs(depart);
 }
 
 void add_drive(CLI::App& command, DriveOptions& drive) {

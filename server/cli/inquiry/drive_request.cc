@@ -16,6 +16,7 @@
 #include "api/documents/drive_so_far.h"
 #include "api/files/soil_file.h"
 #include "api/files/telemetry_csv.h"
+#include "api/json/parse.h"
 #include "api/requests/plan_request.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/zone_option.h"
@@ -84,6 +85,23 @@ Result<void> write_files(Writer& w, const DriveOptions& drive) {
   return {};
 }
 
+Result<void> write_departure(Writer& w, const DriveOptions& drive) {
+  if (drive.depart.empty()) return {};
+  const std::size_t dots = drive.depart.find("..");
+  w.key("departure").begin_object().text("from", drive.depart.substr(0, dots));
+  if (dots != std::string::npos) w.text("to", drive.depart.substr(dots + 2));
+  for (const std::string& setting : drive.day) write_setting(w, setting);
+  if (!drive.sky.empty()) {
+    const auto bytes = read_request(drive.sky);
+    if (!bytes) return fail(bytes.error());
+    const auto moments = api::json::parse(*bytes);
+    if (!moments) return fail(moments.error());
+    write_value(w.key("sky"), *moments);
+  }
+  w.end_object();
+  return {};
+}
+
 }  // namespace
 
 void write_place(Writer& w, const PlaceOption& place) {
@@ -135,6 +153,7 @@ Result<void> write_drive(Writer& w, const DriveOptions& drive) {
   if (drive.seed) w.whole("seed", *drive.seed);
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
   if (drive.motor_temp_c) w.exact("motor_temp_c", *drive.motor_temp_c);
+  if (auto written = write_departure(w, drive); !written) return written;
   if (auto written = write_zone_options(w, "keep_out", drive.keep_out); !written) return written;
   return write_zone_options(w, "keep_in", drive.keep_in);
 }

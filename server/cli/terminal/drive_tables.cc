@@ -195,6 +195,33 @@ std::string advice_lines(const JsonValue& decision) {
   return out;
 }
 
+// "2016-03-22 09:15" of a time of UTC.
+std::string to_the_minute(const std::string& time) {
+  return time.substr(0, 10) + " " + time.substr(11, 5);
+}
+
+// The windows and the best departure of a decision that has them.
+std::string departure_lines(const JsonValue& decision) {
+  const JsonValue* const departures = decision.find("departures");
+  if (departures == nullptr) return {};
+  std::string out;
+  for (const JsonValue& window : at(*departures, "windows").elements)
+    out += fmt::format("Depart between {} and {} UTC\n", to_the_minute(text(window, "from")),
+                       to_the_minute(text(window, "to")));
+  const JsonValue& best = at(*departures, "best");
+  const bool holds = !is_null(best);
+  const JsonValue& drive = holds ? best : at(*departures, "nearest");
+  if (out.empty() && !holds) out += "No departure that was tried keeps what is asked of the day\n";
+  out += fmt::format(
+      "{}: depart {}, arrive {} (slow pace {}), sunlit {:.0f} % of the time, battery {:.0f} % at the arrival "
+      "({:.0f} % at the worse pace)\n",
+      holds ? "Best" : "Nearest", to_the_minute(text(drive, "departs")),
+      to_the_minute(text(drive, "arrives")), to_the_minute(text(drive, "arrives_late")),
+      100.0 * number(drive, "lit_share"), number(drive, "charge_percent"),
+      number(drive, "charge_low_percent"));
+  return out;
+}
+
 // Behind the end of the path, beside it, and off its heading.
 std::string position_line(const JsonValue& document) {
   const JsonValue& uncertainty = at(document, "position_uncertainty");
@@ -219,7 +246,8 @@ std::string drive_lines(const JsonValue& document, bool why) {
   const JsonValue &figures = at(document, "summary"), &decision = at(document, "decision");
   TextTable table = figures_table("drive");
   table.add(figures_row("given", figures, text(decision, "verdict")));
-  std::string out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print();
+  std::string out =
+      verdict_line(decision) + advice_lines(decision) + "\n" + table.print() + departure_lines(decision);
   if (!why) return out + measured_line(document) + unseen_line(document) + "Say more: --why\n";
   const JsonValue& outcomes = at(document, "outcomes");
   out += "\n" + lines(at(decision, "reasons"), "  - ", 1);
@@ -262,7 +290,7 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
     TextTable table = figures_table("route");
     for (const JsonValue& route : summary)
       table.add(figures_row(fmt::format("{:.0f}", number(route, "rank")), route, text(route, "verdict")));
-    out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print();
+    out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print() + departure_lines(decision);
   }
   constexpr std::size_t kFew = 3;
   const JsonValue& fewer = at(*document, "fewer_because");

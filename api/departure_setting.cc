@@ -1,0 +1,71 @@
+#include "api/departure_setting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/angle.h"
+#include "dem/body_degrees.h"
+
+namespace slipway::api {
+namespace {
+
+// Mean radius and solar day.
+struct Body {
+  std::string_view name;
+  double radius_m, day_s;
+};
+constexpr Body kBodies[] = {
+    {"Mars", 3'389'500.0, 88'775.244}, {"Moon", 1'737'400.0, 2'551'442.9}, {"Earth", 6'371'000.0, 86'400.0}};
+
+std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const planner::Waypoint& place) {
+  return dem::BodyDegrees(site.info().crs_wkt, site.info().body, site.info().geometry.extent())
+      .to_degrees({place.x_m, place.y_m});
+}
+
+}  // namespace
+
+std::optional<std::string> why_no_sky(const TerrainSite& site) {
+  const dem::Extent extent = site.info().geometry.extent();
+  const planner::Waypoint middle{
+      0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m), {}};
+  if (site.info().body == "Mars" && degrees_at(site, middle)) return std::nullopt;
+  return fmt::format(
+      "the terrain lies {}, where the sun's direction is not computed: give it as a table of moments, each "
+      "with at, sun_azimuth_deg and sun_elevation_deg",
+      site.info().body == "Mars" || site.info().body == "other" ? std::string("in a local frame")
+                                                                : "on the " + site.info().body);
+}
+
+Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite& site,
+                                                               std::shared_ptr<const dem::Terrain> near,
+                                                               const planner::Waypoint& start,
+                                                               const DepartureRequest& request) {
+  constexpr int kMostCells = 1024;  // along a side of the ground around
+  auto departure = std::make_shared<planner::Departure>(request);
+  const auto body = std::find_if(std::begin(kBodies), std::end(kBodies),
+                                 [&](const Body& each) { return each.name == site.info().body; });
+  const bool known = body != std::end(kBodies);
+  if (known) departure->day_s = body->day_s;
+  if (const auto degrees = degrees_at(site, start)) departure->east_longitude_rad = rad_from_deg(degrees->x);
+  if (!request.table.empty())
+    departure->sky = std::make_shared<sky::SkyTable>(request.table);
+  else
+    departure->sky = std::make_shared<sky::MarsSky>(departure->east_longitude_rad,
+                                                    rad_from_deg(degrees_at(site, start)->y));
+  const dem::GridGeometry& whole = site.info().geometry;
+  std::shared_ptr<const dem::Terrain> around;
+  if (!(near->geometry() == whole)) {
+    const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
+    auto read = site.read_samples(whole.extent(), step);
+    if (!read) return fail(read.error());
+    around = std::move(*read);
+  }
+  departure->horizon = std::make_shared<dem::Horizon>(
+      std::move(near), known ? body->radius_m : std::numeric_limits<double>::infinity(), std::move(around));
+  return std::shared_ptr<const planner::Departure>(std::move(departure));
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "api/files/terrain_site.h"
+#include "api/requests/plan_request.h"
+#include "core/result.h"
+#include "planner/problem/departure.h"
+
+namespace slipway::api {
+
+// Why the directions of sun and Earth over a terrain can't be computed; nothing on Mars.
+std::optional<std::string> why_no_sky(const TerrainSite& site);
+
+// A request's departure with the sky and the horizon of the terrain: of `near` and, beyond it, of the whole
+// terrain in coarser cells. `start` is where the sky is taken. Errors: as of TerrainSite::read_samples.
+Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite& site,
+                                                               std::shared_ptr<const dem::Terrain> near,
+                                                               const planner::Waypoint& start,
+                                                               const DepartureRequest& request);
+
+}  // namespace slipway::api

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dem/horizon.h"
+#include "planner/problem/verdict.h"
+#include "sky/sky.h"
+
+namespace slipway::planner {
+
+// What must hold from departure to arrival; of what is not asked for nothing is judged.
+struct DepartureRules {
+  std::optional<double> min_charge;       // of the battery, share of what it holds
+  std::optional<double> min_sun_rad;      // over the level, and the sun over the ground's horizon
+  std::optional<double> min_earth_rad;    // the same of the Earth
+  std::optional<double> light_left_s;     // from the arrival to when the sun sets behind the ground's horizon
+  std::optional<std::int64_t> arrive_by;  // ms of UTC since 1970
+};
+
+// The air over a day: warmest at 14 h of local solar time, as a cosine.
+struct AirTemperature {
+  double coldest_c = 0.0, warmest_c = 0.0;
+};
+
+// When a drive may begin, and under what sky. Times are milliseconds of UTC since 1970.
+struct Departure {
+  std::int64_t from_ms = 0, to_ms = 0;
+  double every_s = 900.0;      // between the departures that are tried; windows are then narrowed to a second
+  double charge = 1.0;         // of the battery at the departure, share of what it holds
+  double optical_depth = 0.0;  // of the atmosphere
+  std::optional<AirTemperature> air = {};
+  DepartureRules rules;
+  std::shared_ptr<const sky::Sky> sky;
+  std::shared_ptr<const dem::Horizon> horizon;
+  double east_longitude_rad = 0.0;  // of the start, for the time of day
+  double day_s = 88775.244;         // a solar day of the body
+};
+
+// A drive from one departure on. Where slip has an interval: at the pace and the energy that a share of the
+// draws stay below.
+struct TimedStation {
+  double distance_m = 0.0;
+  std::int64_t utc_ms = 0;
+  double sun_over_horizon_rad = 0.0;
+  bool is_lit = false;
+  double in_w = 0.0, out_w = 0.0;
+  double charge = 1.0,
+         charge_low = 1.0;  // at the 50th percentile of the draws, and at the worse of it and the 95th
+};
+
+struct TimedDrive {
+  std::int64_t departs_ms = 0;
+  std::int64_t arrives_ms = 0, arrives_late_ms = 0;  // at the 50th and the 95th percentile of the draws
+  double charge_at_arrival = 1.0, charge_at_arrival_low = 1.0;
+  double least_charge = 1.0, least_charge_low = 1.0;
+  double lit_share = 0.0;  // of the time
+  // In Wh: charge at the start + gained - used - spilled = charge at the end. Spilled: what a full battery
+  // can't take.
+  double gained_wh = 0.0, used_wh = 0.0, spilled_wh = 0.0;
+  std::vector<TimedStation> stations;
+  std::vector<JudgedRule> rules;  // each with its verdict, GO or NO-GO
+};
+
+struct DepartureWindow {
+  std::int64_t from_ms = 0, to_ms = 0;
+};
+
+// A halt on the way to let the battery charge.
+struct ChargingHalt {
+  double at_m = 0.0;
+  double hours = 0.0;
+};
+
+// What the times of day make of one route.
+struct Departures {
+  std::vector<DepartureWindow> windows;  // in which all rules hold
+  std::optional<TimedDrive> best;        // the one that keeps most in the battery; nothing where no window is
+  std::optional<ChargingHalt> halt = {};  // that `best` needs
+  TimedDrive nearest;                     // where there is no window: what fails least, else the best
+  std::vector<TimedDrive> tried;          // without stations, by rising departure
+};
+
+}  // namespace slipway::planner

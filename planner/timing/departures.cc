@@ -1,0 +1,146 @@
+#include "planner/timing/departures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/utc.h"
+#include "planner/timing/drive_in_time.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr int kHaltPlaces = 20;
+constexpr std::array<double, 10> kHaltHours{0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0, 48.0};
+constexpr std::int64_t kNarrowed_ms = 1000;
+
+bool keeps_rules(const TimedDrive& drive) {
+  return std::all_of(drive.rules.begin(), drive.rules.end(),
+                     [](const JudgedRule& rule) { return rule.verdict == Verdict::kGo; });
+}
+
+auto broken(const TimedDrive& drive) {
+  return std::count_if(drive.rules.begin(), drive.rules.end(),
+                       [](const JudgedRule& rule) { return rule.verdict != Verdict::kGo; });
+}
+
+// The moment nearest to `bad` at which the rules hold.
+std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad) {
+  while (std::abs(bad - good) > kNarrowed_ms) {
+    const std::int64_t middle = good + (bad - good) / 2;
+    (keeps_rules(drive.at(middle)) ? good : bad) = middle;
+  }
+  return good;
+}
+
+struct WithHalt {
+  ChargingHalt halt;
+  TimedDrive drive;
+};
+
+std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
+                                  const std::vector<TimedDrive>& tried, Progress& progress) {
+  std::optional<WithHalt> earliest;
+  for (const TimedDrive& direct : tried)
+    for (int place = 0; place < kHaltPlaces; ++place)
+      for (const double hours : kHaltHours) {
+        if (progress.cancelled()) return std::nullopt;
+        // It can't come earlier than without a halt.
+        if (earliest && direct.arrives_ms + std::llround(3.6e6 * hours) >= earliest->drive.arrives_ms) break;
+        const ChargingHalt halt{length_m * place / kHaltPlaces, hours};
+        TimedDrive halting = drive.at(direct.departs_ms, false, halt);
+        if (!keeps_rules(halting)) continue;
+        earliest = WithHalt{halt, std::move(halting)};
+        break;
+      }
+  return earliest;
+}
+
+}  // namespace
+
+Departures departures_of(const Departure& departure, const sim::PowerSupply* supply,
+                         const sim::DrivePrediction& prediction, Progress& progress) {
+  const double longest_s = 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0);
+  Departure at_hand = departure;
+  at_hand.sky = std::make_shared<sky::SkyTable>(
+      sky::table_of(*departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
+                    departure.rules.min_earth_rad.has_value()));
+  const DriveInTime drive(at_hand, supply, prediction);
+  Departures found;
+  const auto step_ms = std::llround(1000.0 * departure.every_s);
+  for (std::int64_t at = departure.from_ms; at <= departure.to_ms && !progress.cancelled(); at += step_ms)
+    found.tried.push_back(drive.at(at));
+  std::vector<TimedDrive>& tried = found.tried;
+  if (tried.empty()) return found;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    if (!keeps_rules(tried[k])) continue;
+    const std::size_t first = k;
+    while (k + 1 < tried.size() && keeps_rules(tried[k + 1])) ++k;
+    DepartureWindow window{tried[first].departs_ms, tried[k].departs_ms};
+    if (first > 0) window.from_ms = edge_of(drive, window.from_ms, tried[first - 1].departs_ms);
+    if (k + 1 < tried.size())
+      window.to_ms = edge_of(drive, window.to_ms, tried[k + 1].departs_ms);
+    else if (keeps_rules(drive.at(departure.to_ms)))
+      window.to_ms = departure.to_ms;
+    found.windows.push_back(window);
+  }
+  const auto is_nearer = [](const TimedDrive& a, const TimedDrive& b) {
+    return std::pair(broken(a), -a.least_charge_low) < std::pair(broken(b), -b.least_charge_low);
+  };
+  const auto nearest = std::min_element(tried.begin(), tried.end(), is_nearer);
+  found.nearest = drive.at(nearest->departs_ms, true);
+  if (!found.windows.empty()) {
+    found.best = found.nearest;
+  } else if (auto halting = with_halt(drive, prediction.length_m, tried, progress)) {
+    found.halt = halting->halt;
+    found.best = drive.at(halting->drive.departs_ms, true, halting->halt);
+  }
+  return found;
+}
+
+void judge_departures(const Departures& departures, DriveVerdict& verdict) {
+  const TimedDrive& drive = departures.best ? *departures.best : departures.nearest;
+  std::vector<std::string> why;
+  for (const JudgedRule& rule : drive.rules) {
+    verdict.rules.push_back(rule);
+    if (rule.verdict == Verdict::kGo) continue;
+    why.push_back(rule.words);
+  }
+  std::stable_sort(verdict.rules.begin(), verdict.rules.end(), [](const JudgedRule& a, const JudgedRule& b) {
+    return severity(a.verdict) > severity(b.verdict);
+  });
+  if (!departures.best && !why.empty()) {
+    std::string words = fmt::format("no departure of {} that were tried keeps the rules of the day; at {} {}",
+                                    departures.tried.size(), utc_text(drive.departs_ms), why.front());
+    for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
+    const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
+    verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
+  } else if (departures.halt) {
+    verdict.reasons.push_back(
+        fmt::format("departing at {} the rover must halt for {:.1f} h at {:.1f} m to charge",
+                    utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m));
+  } else if (!departures.windows.empty()) {
+    const DepartureWindow& first = departures.windows.front();
+    verdict.reasons.push_back(fmt::format(
+        "a departure between {} and {}{} keeps the rules of the day, best at {}", utc_text(first.from_ms),
+        utc_text(first.to_ms), departures.windows.size() > 1 ? " and in later windows" : "",
+        utc_text(drive.departs_ms)));
+  }
+  if (!verdict.rules.empty()) verdict.verdict = verdict.rules.front().verdict;
+}
+
+void add_departures(const PlanProblem& problem, const sim::DrivePrediction& prediction, DriveVerdict& verdict,
+                    Progress& progress) {
+  if (!problem.departure || prediction.stations.empty()) return;
+  const auto& power = problem.rover->power;
+  auto found = std::make_shared<const Departures>(
+      departures_of(*problem.departure, power ? &*power : nullptr, prediction, progress));
+  if (found->tried.empty()) return;
+  judge_departures(*found, verdict);
+  verdict.departures = std::move(found);
+}
+
+}  // namespace slipway::planner

@@ -1,0 +1,278 @@
+#include "planner/timing/drive_in_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/pose.h"
+#include "core/quantile.h"
+#include "core/utc.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr double kSunAtEarth_w_m2 = 1361.0;  // at 1 au [Kopp and Lean 2011]
+constexpr double kHour_s = 3600.0;
+constexpr double kHaltStep_s = 300.0;
+constexpr double kEye_m = 1.0;  // the height of cells and cameras over the ground
+constexpr int kDirections = 72;
+constexpr double kHidden_rad = -0.5 * std::numbers::pi;  // the elevation of what the ground hides
+constexpr double kWholeWay = 0.999;                      // a draw that came so far came to the end
+
+std::int64_t after(std::int64_t utc_ms, double seconds) {
+  return utc_ms + std::llround(1000.0 * seconds);
+}
+
+// When the sun stands highest, of the day that begins with the first departure.
+std::int64_t noon_after(const Departure& departure) {
+  constexpr int kLooks = 288;
+  std::int64_t noon = departure.from_ms;
+  double highest = -std::numbers::pi;
+  for (int k = 0; k < kLooks; ++k) {
+    const std::int64_t at = after(departure.from_ms, departure.day_s * k / kLooks);
+    const auto sun = departure.sky->sun(at);
+    if (!sun || sun->elevation_rad <= highest) continue;
+    highest = sun->elevation_rad;
+    noon = at;
+  }
+  return noon;
+}
+
+}  // namespace
+
+Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_depth) {
+  const double height = std::sin(sun_elevation_rad);
+  if (height <= 0.0) return {};
+  const double above = kSunAtEarth_w_m2 / (sun_distance_au * sun_distance_au);
+  const double left = std::exp(-optical_depth / std::max(height, 0.02));
+  return {above * left, 0.5 * above * height * (1.0 - left)};
+}
+
+// How a drive goes at one pace.
+struct DriveInTime::Course {
+  std::int64_t arrives_ms = 0;
+  double charge = 1.0, least_charge = 1.0;
+  double lit_s = 0.0, total_s = 0.0;
+  double gained_wh = 0.0, used_wh = 0.0, spilled_wh = 0.0;
+  struct Least {
+    double value = std::numeric_limits<double>::infinity();
+    double at_m = 0.0;
+    void lower(double other, double other_at_m) {
+      if (other < value) *this = {other, other_at_m};
+    }
+  };
+  Least charge_at, sun_rad, earth_rad;
+  bool is_known = true;  // the sky is known all the way
+};
+
+DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
+                         const sim::DrivePrediction& prediction)
+    : departure_(departure), supply_(supply) {
+  for (const sim::StationPrediction& at : prediction.stations) {
+    Place place{at.station.distance_m,
+                at.elapsed_s,
+                at.state.electric_power_w,
+                rotation_MB(at.state.attitude).col(2),
+                {}};
+    if (departure.horizon) {
+      auto horizon =
+          departure.horizon->all_around_rad(at.station.pose.x_m, at.station.pose.y_m, kEye_m, kDirections);
+      if (horizon) place.horizon_rad = *std::move(horizon);
+    }
+    places_.push_back(std::move(place));
+  }
+  set_paces(prediction);
+  if (departure.air) noon_ms_ = noon_after(departure);
+}
+
+// Of the draws that come to the end; the others are the halts that the verdict counts.
+void DriveInTime::set_paces(const sim::DrivePrediction& prediction) {
+  std::vector<double> times, energies;
+  for (const sim::DrawFigures& draw : prediction.drawn) {
+    if (draw.driven_m < kWholeWay * prediction.length_m || prediction.duration_s <= 0.0) continue;
+    times.push_back(draw.duration_s / prediction.duration_s);
+    if (prediction.energy_j > 0.0) energies.push_back(draw.energy_j / prediction.energy_j);
+  }
+  const auto set = [](std::vector<double>& ratios, double& usual, double& slow) {
+    if (ratios.empty()) return;
+    usual = quantile(ratios, 0.5);
+    slow = quantile(ratios, 0.95);
+  };
+  set(times, usual_.time, slow_.time);
+  set(energies, usual_.energy, slow_.energy);
+}
+
+double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bearing) const {
+  if (place.horizon_rad.empty()) return bearing.elevation_rad;
+  return bearing.elevation_rad - dem::horizon_between_rad(place.horizon_rad, bearing.azimuth_rad);
+}
+
+double DriveInTime::air_c(std::int64_t utc_ms) const {
+  constexpr double kWarmest = 2.0 / 24.0;  // behind noon
+  const double phase = static_cast<double>(utc_ms - noon_ms_) / 1000.0 / departure_.day_s - kWarmest;
+  const double mean = 0.5 * (departure_.air->warmest_c + departure_.air->coldest_c);
+  return mean + 0.5 * (departure_.air->warmest_c - departure_.air->coldest_c) *
+                    std::cos(2.0 * std::numbers::pi * phase);
+}
+
+DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
+                                     const std::optional<ChargingHalt>& halt,
+                                     std::vector<TimedStation>* stations) const {
+  Course course;
+  course.charge = departure_.charge;
+  std::int64_t now = departs_ms;
+  const auto spend = [&](const Place& place, double seconds, double motors_w, double distance_m) {
+    const std::int64_t middle = after(now, 0.5 * seconds);
+    const auto sun = departure_.sky->sun(middle);
+    const double over = sun ? over_horizon_rad(place, *sun) : 0.0;
+    const bool is_lit = sun && over > 0.0;
+    course.is_known &= sun.has_value();
+    course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
+    if (departure_.rules.min_earth_rad) {
+      const auto earth = departure_.sky->earth(middle);
+      const bool in_sight = earth && over_horizon_rad(place, *earth) > 0.0;
+      course.earth_rad.lower(in_sight ? earth->elevation_rad : kHidden_rad, distance_m);
+      course.is_known &= earth.has_value();
+    }
+    double in_w = 0.0, out_w = 0.0;
+    if (supply_ != nullptr) {
+      in_w = supply_->constant_w;
+      if (sun && supply_->array_m2 > 0.0) {
+        const Light light =
+            light_of(sun->elevation_rad, departure_.sky->sun_distance_au(middle), departure_.optical_depth);
+        const double on_cells =
+            light.diffuse_w_m2 +
+            (is_lit ? light.beam_w_m2 * std::max(0.0, sky::towards(*sun).dot(place.up)) : 0.0);
+        in_w += supply_->array_m2 * supply_->array_efficiency * supply_->array_clean * on_cells;
+      }
+      out_w = motors_w + (motors_w > 0.0 ? supply_->driving_w : supply_->standing_w);
+      if (departure_.air && air_c(middle) < supply_->heating_below_c) out_w += supply_->heating_w;
+      const double hours = seconds / kHour_s;
+      course.gained_wh += in_w * hours;
+      course.used_wh += out_w * hours;
+      double held_wh = course.charge * supply_->battery_wh + (in_w - out_w) * hours;
+      if (held_wh > supply_->battery_wh) {
+        course.spilled_wh += held_wh - supply_->battery_wh;
+        held_wh = supply_->battery_wh;
+      }
+      course.charge = held_wh / supply_->battery_wh;
+    }
+    course.charge_at.lower(course.charge, distance_m);
+    course.least_charge = std::min(course.least_charge, course.charge);
+    course.total_s += seconds;
+    if (is_lit) course.lit_s += seconds;
+    now = after(now, seconds);
+    return TimedStation{distance_m, now, over, is_lit, in_w, out_w, course.charge, course.charge};
+  };
+  bool halted = !halt;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Place& place = places_[k];
+    const double before_s = k == 0 ? 0.0 : places_[k - 1].elapsed_s;
+    const double seconds = pace.time * (place.elapsed_s - before_s);
+    // What more energy is needed goes into the same time's power.
+    const TimedStation at = spend(place, seconds, place.motors_w * pace.energy / pace.time, place.distance_m);
+    if (stations != nullptr) stations->push_back(at);
+    if (halted || place.distance_m < halt->at_m) continue;
+    halted = true;
+    for (double left = halt->hours * kHour_s; left > 0.0; left -= kHaltStep_s)
+      spend(place, std::min(left, kHaltStep_s), 0.0, place.distance_m);
+  }
+  course.arrives_ms = now;
+  return course;
+}
+
+// How long the sun stays over the horizon of the last place, up to `enough_s`.
+double DriveInTime::light_left_s(std::int64_t from_ms, double enough_s) const {
+  constexpr double kStep_s = 60.0;
+  for (double s = 0.0; s < enough_s; s += kStep_s) {
+    const auto sun = departure_.sky->sun(after(from_ms, s));
+    if (!sun || places_.empty() || over_horizon_rad(places_.back(), *sun) <= 0.0) return s;
+  }
+  return enough_s;
+}
+
+void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& drive) const {
+  const DepartureRules& rules = departure_.rules;
+  const auto add = [&](std::string name, double value, double low, double limit, std::string unit,
+                       std::optional<double> at_m, std::string words) {
+    JudgedRule rule{.name = std::move(name), .verdict = low >= limit ? Verdict::kGo : Verdict::kNoGo};
+    rule.value = rule.high = value;
+    rule.low = low;
+    rule.go_below = rule.no_go_above = limit;
+    rule.unit = std::move(unit);
+    rule.at_m = at_m;
+    rule.words = std::move(words);
+    drive.rules.push_back(std::move(rule));
+  };
+  if (!usual.is_known || !slow.is_known) {
+    JudgedRule rule{.name = "sky", .verdict = Verdict::kUnknown};
+    rule.words = "the table of the sky ends before the drive does";
+    drive.rules.push_back(std::move(rule));
+  }
+  if (rules.min_charge) {
+    const Course& least = usual.least_charge < slow.least_charge ? usual : slow;
+    add("charge", 100.0 * usual.least_charge, 100.0 * least.least_charge, 100.0 * *rules.min_charge, "%",
+        least.charge_at.at_m,
+        fmt::format(
+            "the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
+            100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m,
+            100.0 * *rules.min_charge));
+  }
+  const auto in_sight = [&](const char* name, const char* what, const Course::Least& a,
+                            const Course::Least& b, double limit_rad) {
+    const Course::Least& least = a.value < b.value ? a : b;
+    const bool hidden = least.value <= kHidden_rad;
+    add(name, deg_from_rad(a.value), deg_from_rad(least.value), deg_from_rad(limit_rad), "deg", least.at_m,
+        hidden ? fmt::format("{} is not in sight at {:.1f} m", what, least.at_m)
+               : fmt::format("{} stands {:.1f} deg high at {:.1f} m, limit {:.1f} deg", what,
+                             deg_from_rad(least.value), least.at_m, deg_from_rad(limit_rad)));
+  };
+  if (rules.min_sun_rad) in_sight("sun", "the sun", usual.sun_rad, slow.sun_rad, *rules.min_sun_rad);
+  if (rules.min_earth_rad)
+    in_sight("earth", "the Earth", usual.earth_rad, slow.earth_rad, *rules.min_earth_rad);
+  if (rules.light_left_s) {
+    const double enough = *rules.light_left_s;
+    const double left = light_left_s(slow.arrives_ms, enough);
+    add("light_left", light_left_s(usual.arrives_ms, enough) / kHour_s, left / kHour_s, enough / kHour_s, "h",
+        {},
+        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h",
+                                    left / kHour_s, enough / kHour_s)
+                      : fmt::format("{:.2f} h of light or more are left at the arrival", enough / kHour_s));
+  }
+  if (rules.arrive_by) {
+    const auto hours_before = [&](std::int64_t at) {
+      return static_cast<double>(*rules.arrive_by - at) / 3.6e6;
+    };
+    add("arrival", hours_before(usual.arrives_ms), hours_before(slow.arrives_ms), 0.0, "h", {},
+        fmt::format("the rover arrives at {}, at the slow pace at {}, limit {}", utc_text(usual.arrives_ms),
+                    utc_text(slow.arrives_ms), utc_text(*rules.arrive_by)));
+  }
+}
+
+TimedDrive DriveInTime::at(std::int64_t departs_ms, bool keep_stations,
+                           const std::optional<ChargingHalt>& halt) const {
+  TimedDrive drive;
+  std::vector<TimedStation> at_slow_pace;
+  const Course usual = run(departs_ms, usual_, halt, keep_stations ? &drive.stations : nullptr);
+  const Course slow = run(departs_ms, slow_, halt, keep_stations ? &at_slow_pace : nullptr);
+  for (std::size_t k = 0; k < drive.stations.size(); ++k)
+    drive.stations[k].charge_low = std::min(drive.stations[k].charge, at_slow_pace[k].charge);
+  drive.departs_ms = departs_ms;
+  drive.arrives_ms = usual.arrives_ms;
+  drive.arrives_late_ms = slow.arrives_ms;
+  drive.charge_at_arrival = usual.charge;
+  drive.charge_at_arrival_low = std::min(usual.charge, slow.charge);
+  drive.least_charge = usual.least_charge;
+  drive.least_charge_low = std::min(usual.least_charge, slow.least_charge);
+  drive.lit_share = usual.total_s > 0.0 ? usual.lit_s / usual.total_s : 0.0;
+  drive.gained_wh = usual.gained_wh;
+  drive.used_wh = usual.used_wh;
+  drive.spilled_wh = usual.spilled_wh;
+  judge(usual, slow, drive);
+  return drive;
+}
+
+}  // namespace slipway::planner

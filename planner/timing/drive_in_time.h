@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/problem/departure.h"
+#include "sim/prediction/drive_prediction.h"
+#include "sim/rover/power_supply.h"
+
+namespace slipway::planner {
+
+// Light on level ground and straight to the sun, W/m^2, through an atmosphere that scatters: what is
+// scattered out of the beam comes from the whole sky by half. A sketch of Appelbaum and Flood's table (Solar
+// radiation on Mars, Solar Energy 45, 1990), whose net flux it has within 0.03 of the light above the
+// atmosphere for optical depths up to 1 and a sun higher than 30 deg.
+struct Light {
+  double beam_w_m2 = 0.0, diffuse_w_m2 = 0.0;
+};
+Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_depth);
+
+// A predicted drive as it goes through the day.
+class DriveInTime {
+ public:
+  // `supply` null: nothing is known of the rover's power, and charge stays what it is. All must outlive it.
+  // Horizons are looked at here, once for each station.
+  DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
+              const sim::DrivePrediction& prediction);
+
+  // From a departure on, with rules judged; with `keep_stations` also what is at each of them.
+  TimedDrive at(std::int64_t departs_ms, bool keep_stations = false,
+                const std::optional<ChargingHalt>& halt = std::nullopt) const;
+
+ private:
+  // Of a place on the way.
+  struct Place {
+    double distance_m, elapsed_s, motors_w;
+    Eigen::Vector3d up;               // of the body
+    std::vector<double> horizon_rad;  // empty where it is not known
+  };
+  // How much longer and with how much more energy than on the mean soils.
+  struct Pace {
+    double time = 1.0, energy = 1.0;
+  };
+  struct Course;
+
+  void set_paces(const sim::DrivePrediction& prediction);
+  Course run(std::int64_t departs_ms, const Pace& pace, const std::optional<ChargingHalt>& halt,
+             std::vector<TimedStation>* stations) const;
+  void judge(const Course& usual, const Course& slow, TimedDrive& drive) const;
+  double over_horizon_rad(const Place& place, const sky::Bearing& bearing) const;
+  double light_left_s(std::int64_t from_ms, double enough_s) const;
+  double air_c(std::int64_t utc_ms) const;
+
+  const Departure& departure_;
+  const sim::PowerSupply* supply_;
+  std::vector<Place> places_;
+  Pace usual_, slow_;
+  std::int64_t noon_ms_ = 0;  // of the day of the first departure
+};
+
+}  // namespace slipway::planner

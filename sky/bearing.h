@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+
+namespace slipway::sky {
+
+// Where something in the sky stands, as seen from a place on a body.
+struct Bearing {
+  double azimuth_rad = 0.0;    // clockwise from north, [0, 2 pi)
+  double elevation_rad = 0.0;  // above the level, without refraction
+};
+
+// Unit vector in the map frame: x east, y north, z up.
+inline Eigen::Vector3d towards(const Bearing& bearing) {
+  const double level = std::cos(bearing.elevation_rad);
+  return {level * std::sin(bearing.azimuth_rad), level * std::cos(bearing.azimuth_rad),
+          std::sin(bearing.elevation_rad)};
+}
+
+inline Bearing bearing_of(const Eigen::Vector3d& direction) {
+  double azimuth = std::atan2(direction.x(), direction.y());
+  if (azimuth < 0.0) azimuth += 2.0 * std::numbers::pi;
+  return {azimuth, std::atan2(direction.z(), std::hypot(direction.x(), direction.y()))};
+}
+
+}  // namespace slipway::sky

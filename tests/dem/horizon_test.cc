@@ -1,0 +1,109 @@
+#include "dem/horizon.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/angle.h"
+#include "core/random.h"
+
+namespace slipway::dem {
+namespace {
+
+constexpr double kFlat = std::numeric_limits<double>::infinity();
+
+std::shared_ptr<const Terrain> sampled(const GridGeometry& grid,
+                                       const std::function<double(double, double)>& height,
+                                       const std::function<bool(int, int)>& missing = nullptr) {
+  std::vector<float> heights;
+  std::vector<std::uint8_t> valid;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column) {
+      const Eigen::Vector2d centre = grid.centre_m({row, column});
+      heights.push_back(static_cast<float>(height(centre.x(), centre.y())));
+      valid.push_back(missing && missing(row, column) ? 0 : 1);
+    }
+  return std::make_shared<const Terrain>(grid, std::move(heights), std::move(valid));
+}
+
+constexpr GridGeometry kGrid{
+    .rows = 150, .columns = 130, .west_m = 0.0, .north_m = 150.0, .cell_x_m = 1.0, .cell_y_m = 1.0};
+
+// Hills of several sizes with a wall and rough ground.
+double hills(double x, double y) {
+  const auto cell = static_cast<std::uint64_t>(std::lround(1000.0 * x) * 7919 + std::lround(1000.0 * y));
+  return 6.0 * std::sin(0.05 * x) * std::cos(0.07 * y) + 1.5 * std::sin(0.31 * x + 0.2 * y) +
+         (std::abs(x - 90.0) < 2.0 && y > 60.0 ? 9.0 : 0.0) + 0.3 * random_uniform(cell, 1);
+}
+
+// By small steps along the ray, up to the outer centres.
+double marched_rad(const Terrain& terrain, double x, double y, double eye, double azimuth, double radius) {
+  const double from = 0.5 * terrain.geometry().cell_x_m, ground = *terrain.height_m(x, y) + eye;
+  double best = -kFlat;
+  for (double d = from; d < 300.0; d += 0.02) {
+    const double px = x + d * std::sin(azimuth), py = y + d * std::cos(azimuth);
+    if (px < 0.5 || px > 129.5 || py < 0.5 || py > 149.5) break;
+    const auto height = terrain.height_m(px, py);
+    if (height) best = std::max(best, (*height - ground) / d - 0.5 * d / radius);
+  }
+  return std::atan(best);
+}
+
+TEST(Horizon, IsWhatSmallStepsAlongTheRayFind) {
+  const auto terrain = sampled(kGrid, hills);
+  for (const double radius : {kFlat, 2000.0}) {
+    const Horizon horizon(terrain, radius);
+    for (std::uint64_t k = 0; k < 200; ++k) {
+      const double x = 2.0 + 125.0 * random_uniform(k, 0), y = 2.0 + 145.0 * random_uniform(k, 1);
+      const double eye = k % 2 == 0 ? 1.0 : 0.0, azimuth = 2.0 * std::numbers::pi * random_uniform(k, 2);
+      const auto found = horizon.elevation_rad(x, y, eye, azimuth);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(deg_from_rad(*found), deg_from_rad(marched_rad(*terrain, x, y, eye, azimuth, radius)), 0.1)
+          << x << " " << y << " " << azimuth;
+    }
+  }
+}
+
+TEST(Horizon, OfAWallIsItsAngleAndOfTheMirroredMapTheSame) {
+  const auto wall = sampled(kGrid, [](double x, double) { return x > 100.0 ? 10.0 : 0.0; });
+  const auto mirrored = sampled(kGrid, [](double x, double) { return x < 30.0 ? 10.0 : 0.0; });
+  const Horizon east(wall, kFlat), west(mirrored, kFlat);
+  // The wall rises between the centres 99.5 and 100.5.
+  const double expected = std::atan2(9.0, 40.5);
+  EXPECT_NEAR(*east.elevation_rad(60.0, 70.0, 1.0, 0.5 * std::numbers::pi), expected, 1e-3);
+  EXPECT_NEAR(*west.elevation_rad(70.0, 70.0, 1.0, 1.5 * std::numbers::pi), expected, 1e-3);
+  EXPECT_LT(*east.elevation_rad(60.0, 70.0, 1.0, 1.5 * std::numbers::pi), 0.0);
+}
+
+TEST(Horizon, GoesOnOverTheGroundAroundTheTerrain) {
+  const auto near = sampled(kGrid, [](double, double) { return 0.0; });
+  constexpr GridGeometry kAround{
+      .rows = 60, .columns = 60, .west_m = -500.0, .north_m = 700.0, .cell_x_m = 20.0, .cell_y_m = 20.0};
+  const auto far = sampled(kAround, [](double x, double) { return x > 400.0 ? 100.0 : 0.0; });
+  const Horizon horizon(near, kFlat, far);
+  EXPECT_NEAR(*horizon.elevation_rad(60.0, 70.0, 0.0, 0.5 * std::numbers::pi), std::atan2(100.0, 350.0),
+              5e-3);
+  EXPECT_NEAR(*Horizon(near, kFlat).elevation_rad(60.0, 70.0, 0.0, 0.5 * std::numbers::pi), 0.0, 1e-6);
+}
+
+TEST(Horizon, HasNothingWhereTheGroundHasNone) {
+  const auto terrain = sampled(
+      kGrid, [](double, double) { return 0.0; },
+      [](int row, int column) { return row == 80 && column > 50; });
+  const Horizon horizon(terrain, kFlat);
+  EXPECT_FALSE(horizon.elevation_rad(80.0, 150.0 - 80.5, 1.0, 0.0));
+  EXPECT_TRUE(horizon.all_around_rad(20.0, 20.0, 1.0, 72));
+}
+
+TEST(Horizon, BetweenDirectionsIsLinearAndGoesRound) {
+  const std::vector<double> four{0.0, 1.0, 2.0, 4.0};
+  EXPECT_DOUBLE_EQ(horizon_between_rad(four, 0.25 * std::numbers::pi), 0.5);
+  EXPECT_DOUBLE_EQ(horizon_between_rad(four, 1.75 * std::numbers::pi), 2.0);
+}
+
+}  // namespace
+}  // namespace slipway::dem
