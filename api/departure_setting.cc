@@ -20,12 +20,23 @@ struct Body {
 constexpr Body kBodies[] = {
     {"Mars", 3'389'500.0, 88'775.244}, {"Moon", 1'737'400.0, 2'551'442.9}, {"Earth", 6'371'000.0, 86'400.0}};
 
+const Body* body_of(const std::string& name) {
+  const auto* const found = std::find_if(std::begin(kBodies), std::end(kBodies),
+                                         [&](const Body& each) { return each.name == name; });
+  return found == std::end(kBodies) ? nullptr : found;
+}
+
 std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const planner::Waypoint& place) {
   return dem::BodyDegrees(site.info().crs_wkt, site.info().body, site.info().geometry.extent())
       .to_degrees({place.x_m, place.y_m});
 }
 
 }  // namespace
+
+double body_radius_m(const std::string& body) {
+  const Body* const found = body_of(body);
+  return found != nullptr ? found->radius_m : std::numeric_limits<double>::infinity();
+}
 
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
@@ -45,10 +56,7 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
                                                                const DepartureRequest& request) {
   constexpr int kMostCells = 1024;  // along a side of the ground around
   auto departure = std::make_shared<planner::Departure>(request);
-  const auto body = std::find_if(std::begin(kBodies), std::end(kBodies),
-                                 [&](const Body& each) { return each.name == site.info().body; });
-  const bool known = body != std::end(kBodies);
-  if (known) departure->day_s = body->day_s;
+  if (const Body* const body = body_of(site.info().body)) departure->day_s = body->day_s;
   if (const auto degrees = degrees_at(site, start)) departure->east_longitude_rad = rad_from_deg(degrees->x);
   if (!request.table.empty())
     departure->sky = std::make_shared<sky::SkyTable>(request.table);
@@ -63,8 +71,8 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
     if (!read) return fail(read.error());
     around = std::move(*read);
   }
-  departure->horizon = std::make_shared<dem::Horizon>(
-      std::move(near), known ? body->radius_m : std::numeric_limits<double>::infinity(), std::move(around));
+  departure->horizon =
+      std::make_shared<dem::Horizon>(std::move(near), body_radius_m(site.info().body), std::move(around));
   return std::shared_ptr<const planner::Departure>(std::move(departure));
 }
 

@@ -11,6 +11,9 @@
 
 namespace slipway::api {
 
+// Mean radius of a body by its name in ElevationInfo; infinite where it is not known.
+double body_radius_m(const std::string& body);
+
 // Why the directions of sun and Earth over a terrain can't be computed; nothing on Mars.
 std::optional<std::string> why_no_sky(const TerrainSite& site);
 

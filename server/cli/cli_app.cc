@@ -19,6 +19,7 @@
 #include "server/cli/commands/serve_command.h"
 #include "server/cli/commands/steps_command.h"
 #include "server/cli/commands/study_command.h"
+#include "server/cli/commands/sky_command.h"
 #include "server/cli/commands/terrain_command.h"
 #include "server/cli/commands/test_model_command.h"
 #include "server/cli/commands/tune_command.h"
@@ -48,6 +49,7 @@ int run_command_line(int argc, char** argv) {
   add_test_model_command(app, run);
   add_estimate_command(app, run);
   add_terrain_command(app, run);
+  add_sky_command(app, run);
   add_map_command(app, run);
   add_data_command(app, run);
   add_steps_command(app, run);

@@ -1,0 +1,213 @@
+#include "server/cli/commands/sky_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "api/departure_setting.h"
+#include "api/files/catalogue.h"
+#include "api/json/writer.h"
+#include "core/angle.h"
+#include "core/utc.h"
+#include "dem/body_degrees.h"
+#include "dem/horizon.h"
+#include "dem/write/horizon_map.h"
+#include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/data_folder.h"
+#include "server/cli/inquiry/data_option.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "sky/mars_time.h"
+
+namespace slipway::server {
+namespace {
+
+// Where the question is asked: degrees for the sky, a terrain for the horizon.
+struct Place {
+  std::optional<dem::MapPlace> degrees = {};
+  std::shared_ptr<const api::TerrainSite> site = {};
+};
+
+Result<Place> place_of(const SkyOptions& options) {
+  Place place;
+  if (!options.lonlat.empty()) {
+    dem::MapPlace degrees;
+    char end = 0;
+    if (std::sscanf(options.lonlat.c_str(), "%lf,%lf%c", &degrees.x, &degrees.y, &end) != 2 ||
+        !(std::abs(degrees.y) <= 90.0) || !(std::abs(degrees.x) <= 360.0))
+      return fail(
+          ErrorCode::kInvalidRequest,
+          fmt::format("--lonlat {} is no longitude,latitude in degrees such as 137.4,-4.6", options.lonlat));
+    place.degrees = degrees;
+  }
+  if (options.terrain.empty()) return place;
+  const auto folder = data_folder(options.data);
+  if (!folder) return fail(folder.error());
+  const auto catalogue = api::load_catalogue(*folder);
+  if (!catalogue) return fail(catalogue.error());
+  const auto found = catalogue->terrains.find(options.terrain);
+  if (found == catalogue->terrains.end())
+    return fail(ErrorCode::kInvalidRequest, api::unknown_terrain(*catalogue, options.terrain));
+  place.site = found->second;
+  const dem::ElevationInfo& info = place.site->info();
+  const dem::Extent extent = info.geometry.extent();
+  if (place.degrees || api::why_no_sky(*place.site)) return place;
+  const dem::MapPlace on_map = options.place ? dem::MapPlace{options.place->x_m, options.place->y_m}
+                                             : dem::MapPlace{0.5 * (extent.west_m + extent.east_m),
+                                                             0.5 * (extent.south_m + extent.north_m)};
+  place.degrees = dem::BodyDegrees(info.crs_wkt, info.body, extent).to_degrees(on_map);
+  return place;
+}
+
+struct Answer {
+  std::int64_t utc_ms = 0;
+  Place place;
+  std::optional<std::vector<double>> horizon_rad = {};
+};
+
+void write_bearing(api::json::Writer& w, std::string_view key, const sky::Bearing& bearing) {
+  w.key(key).begin_object().significant("azimuth_deg", deg_from_rad(bearing.azimuth_rad));
+  w.significant("elevation_deg", deg_from_rad(bearing.elevation_rad)).end_object();
+}
+
+std::string printed(const Answer& answer, bool json) {
+  api::json::Writer w;
+  w.begin_object().text("format", "sky/1").text("at", utc_text(answer.utc_ms));
+  std::string out = fmt::format("At {} (UTC)\n", utc_text(answer.utc_ms));
+  if (answer.place.degrees) {
+    const double east = rad_from_deg(answer.place.degrees->x), north = rad_from_deg(answer.place.degrees->y);
+    const sky::MarsTime time = sky::mars_time(answer.utc_ms, east);
+    const sky::Bearing sun = sky::mars_sun(answer.utc_ms, east, north),
+                       earth = sky::mars_earth(answer.utc_ms, east, north);
+    w.significant("longitude_deg", answer.place.degrees->x)
+        .significant("latitude_deg", answer.place.degrees->y);
+    w.exact("sol_date", time.sol_date).exact("solar_longitude_deg", deg_from_rad(time.season_rad));
+    w.exact("mean_solar_h", time.mean_solar_h).exact("true_solar_h", time.true_solar_h);
+    w.significant("declination_deg", deg_from_rad(time.declination_rad));
+    w.significant("sun_distance_au", time.sun_distance_au);
+    write_bearing(w, "sun", sun);
+    write_bearing(w, "earth", earth);
+    const auto clock = [](double hours) {
+      const long seconds = std::lround(3600.0 * hours);
+      return fmt::format("{:02}:{:02}:{:02}", seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+    };
+    out += fmt::format(
+        "Mars at {:.4f} deg east, {:.4f} deg north: Ls {:.3f} deg, local mean solar time {}, true {}\n",
+        answer.place.degrees->x, answer.place.degrees->y, deg_from_rad(time.season_rad),
+        clock(time.mean_solar_h), clock(time.true_solar_h));
+    for (const auto& [name, bearing] : {std::pair{"Sun", &sun}, {"Earth", &earth}})
+      out += fmt::format("{}: azimuth {:.2f} deg, elevation {:.2f} deg\n", name,
+                         deg_from_rad(bearing->azimuth_rad), deg_from_rad(bearing->elevation_rad));
+  }
+  if (answer.horizon_rad) {
+    w.key("horizon_deg").begin_array();
+    out += "Horizon, azimuth and elevation in degrees:\n";
+    for (std::size_t k = 0; k < answer.horizon_rad->size(); ++k) {
+      const double elevation = deg_from_rad((*answer.horizon_rad)[k]);
+      w.significant(elevation);
+      out += fmt::format("{:8.1f} {:7.2f}\n",
+                         360.0 * static_cast<double>(k) / static_cast<double>(answer.horizon_rad->size()),
+                         elevation);
+    }
+    w.end_array();
+  }
+  w.end_object();
+  return json ? w.take() + "\n" : out;
+}
+
+Result<std::string> look(const SkyOptions& options) {
+  Answer answer{.utc_ms = now_ms(), .place = {}};
+  if (!options.at.empty()) {
+    const auto at = utc_of_text(options.at);
+    if (!at)
+      return fail(ErrorCode::kInvalidRequest,
+                  fmt::format("--at {} is no time of UTC such as 2026-07-01T12:00:00Z", options.at));
+    answer.utc_ms = *at;
+  }
+  auto place = place_of(options);
+  if (!place) return fail(place.error());
+  answer.place = std::move(*place);
+  const bool wants_horizon = options.horizon || !options.horizon_map.empty();
+  if (!answer.place.degrees && !wants_horizon)
+    return fail(ErrorCode::kInvalidRequest,
+                answer.place.site ? *api::why_no_sky(*answer.place.site)
+                                  : std::string("give a place: --lonlat, or --terrain with --place"));
+  if (!wants_horizon) return printed(answer, options.json);
+  if (!answer.place.site)
+    return fail(ErrorCode::kInvalidRequest, "a horizon is of a terrain: give --terrain");
+  const dem::ElevationInfo& info = answer.place.site->info();
+  auto terrain = answer.place.site->read_elevation(info.geometry.extent());
+  if (!terrain) return fail(terrain.error());
+  const dem::Horizon horizon(*terrain, api::body_radius_m(info.body));
+  if (options.horizon) {
+    if (!options.place)
+      return fail(ErrorCode::kInvalidRequest, "a horizon is seen from a place: give --place");
+    answer.horizon_rad =
+        horizon.all_around_rad(options.place->x_m, options.place->y_m, options.eye_m, options.directions);
+    if (!answer.horizon_rad)
+      return fail(ErrorCode::kOffMap, fmt::format("the terrain has no height at ({:g}, {:g})",
+                                                  options.place->x_m, options.place->y_m));
+  }
+  if (!options.horizon_map.empty()) {
+    constexpr int kMostCells = 2048;
+    const int every = options.every > 0
+                          ? options.every
+                          : 1 + (std::max(info.geometry.rows, info.geometry.columns) - 1) / kMostCells;
+    if (std::filesystem::exists(options.horizon_map))
+      return fail(ErrorCode::kUnwritableFile, options.horizon_map + " exists already");
+    TerminalProgress progress;
+    auto written =
+        dem::write_horizon_map(options.horizon_map, horizon, dem::coarser_grid(info.geometry, every),
+                               info.crs_wkt, options.eye_m, options.directions, 0, progress);
+    if (!written) return fail(written.error());
+  }
+  return printed(answer, options.json);
+}
+
+}  // namespace
+
+void add_sky_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<SkyOptions>();
+  CLI::App* const command =
+      app.add_subcommand("sky", "time, sun, Earth and the ground's horizon over a place");
+  command->add_option("--at", options->at, "time of UTC, 2026-07-01T12:00:00Z; now where it is not given");
+  command->add_option("--lonlat", options->lonlat,
+                      "a place on Mars: east longitude,planetocentric latitude in degrees");
+  CLI::Option* const terrain =
+      command->add_option("--terrain", options->terrain, "the terrain whose place or horizon is asked for");
+  add_place(*command, "--place", options->place,
+            "x,y in map metres; the middle of the terrain where it is not given");
+  command->add_flag("--horizon", options->horizon, "print the horizon's elevation all around --place")
+      ->needs(terrain);
+  CLI::Option* const map =
+      command
+          ->add_option(
+              "--horizon-map", options->horizon_map,
+              "write the horizon from every cell to this file, a GeoTIFF with a band for each direction")
+          ->needs(terrain);
+  command->add_option("--every", options->every, "cells of the terrain along a side to one of the map")
+      ->needs(map)
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--directions", options->directions, "of the horizon")
+      ->capture_default_str()
+      ->check(CLI::Range(4, 720));
+  command->add_option("--eye-m", options->eye_m, "height of the eye over the ground")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_flag("--json", options->json, "print JSON (sky/1)");
+  add_data_option(*command, options->data, "terrains");
+  command->footer(
+      "Example: where Spirit landed, then\n  slipway sky --lonlat 175.298,-14.64 --at 2004-01-03T13:46:31Z");
+  command->callback([options, &run] {
+    run = [options] {
+      const auto answer = look(*options);
+      return answer ? deliver({}, *answer) : refuse(answer.error());
+    };
+  });
+}
+
+}  // namespace slipway::server
