@@ -53,11 +53,12 @@ class Horizon::Field {
     const Line line{start.x(), start.y(), -ray.north / geometry.cell_y_m, ray.east / geometry.cell_x_m};
     const auto [enters, leaves] = line.inside(rows_ - 1, columns_ - 1);
     const double nudge = 1e-7 * std::min(geometry.cell_x_m, geometry.cell_y_m);
-    std::size_t level = levels_.size() - 1;
     double d = std::max(from_m, enters) + nudge;
+    look_along(ray, line, d, leaves, best);
+    std::size_t level = levels_.size() - 1;
     while (d < leaves) {
-      const int size = kFirstBlock << level;
-      const int row = line.row_at(d, rows_ - 2) / size, column = line.column_at(d, columns_ - 2) / size;
+      const int shift = kFirstShift + static_cast<int>(level), size = 1 << shift;
+      const int row = line.row_at(d, rows_ - 2) >> shift, column = line.column_at(d, columns_ - 2) >> shift;
       const double end = std::min(leaves, line.leaves_block(row * size, column * size, size));
       const double to = std::max(end, d + nudge);
       if (ray.bound(levels_[level].at(row, column), d, to) <= best) {
@@ -74,7 +75,8 @@ class Horizon::Field {
   }
 
  private:
-  static constexpr int kFirstBlock = 4;  // patches along a side of a block of the finest level
+  // Patches along a side of a block of the finest level.
+  static constexpr int kFirstShift = 2, kFirstBlock = 1 << kFirstShift;
 
   // In rows and columns, whole numbers at cell centres.
   struct Line {
@@ -151,6 +153,24 @@ class Horizon::Field {
     levels_.push_back(std::move(level));
   }
 
+  // The height of the patch at a distance, of the line's place in it.
+  double height_in_patch(const float* north, const Line& line, int row, int column, double d) const {
+    const double v = std::clamp(line.row + line.rows_m * d - row, 0.0, 1.0),
+                 u = std::clamp(line.column + line.columns_m * d - column, 0.0, 1.0);
+    const float* const south = north + columns_;
+    return (1.0 - v) * ((1.0 - u) * north[0] + u * north[1]) + v * ((1.0 - u) * south[0] + u * south[1]);
+  }
+
+  // Ground at ever greater distances: the sooner a high horizon is known, the fewer blocks are looked into.
+  void look_along(const Ray& ray, const Line& line, double from_m, double to_m, double& best) const {
+    constexpr double kFurther = 1.15;
+    for (double d = from_m; d < to_m; d *= kFurther) {
+      const int row = line.row_at(d, rows_ - 2), column = line.column_at(d, columns_ - 2);
+      if (const float* const heights = terrain_->heights_in({row, column, 2, 2}))
+        best = std::max(best, ray.tangent(height_in_patch(heights, line, row, column, d), d));
+    }
+  }
+
   // Along the ray a patch's height is a parabola, whose tangent is greatest at an end or where it turns.
   void raise_in_patches(const Ray& ray, const Line& line, double from_m, double to_m, double nudge,
                         double& best) const {
@@ -158,14 +178,12 @@ class Horizon::Field {
     while (d < to_m) {
       const int row = line.row_at(d, rows_ - 2), column = line.column_at(d, columns_ - 2);
       const double end = std::max(std::min(to_m, line.leaves_block(row, column, 1)), d + nudge);
-      if (const float* heights = terrain_->heights_in({row, column, 2, 2})) {
-        const auto height_at = [&](double at) {
-          const double v = std::clamp(line.row + line.rows_m * at - row, 0.0, 1.0),
-                       u = std::clamp(line.column + line.columns_m * at - column, 0.0, 1.0);
-          const float *north = heights, *south = heights + columns_;
-          return (1.0 - v) * ((1.0 - u) * north[0] + u * north[1]) +
-                 v * ((1.0 - u) * south[0] + u * south[1]);
-        };
+      const float* const heights = terrain_->heights_in({row, column, 2, 2});
+      const auto highest = [&] {
+        return std::max(std::max(heights[0], heights[1]), std::max(heights[columns_], heights[columns_ + 1]));
+      };
+      if (heights != nullptr && ray.bound(highest(), d, end) > best) {
+        const auto height_at = [&](double at) { return height_in_patch(heights, line, row, column, at); };
         const double first = height_at(d), last = height_at(end), middle = height_at(0.5 * (d + end));
         best = std::max({best, ray.tangent(first, d), ray.tangent(last, end)});
         const double length = end - d;
