@@ -1,0 +1,105 @@
+// When a drive may begin, from the request to the answer.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "api/documents/departure.h"
+#include "api/json/parse.h"
+#include "yard_requests.h"
+
+namespace slipway::api {
+namespace {
+
+const testing::YardRequests kYard("mer-class");
+constexpr const char* kFourMetres = R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":24)";
+// The sun rises in the east at 6 h and is overhead at 12 h.
+constexpr const char* kSky =
+    R"("sky":[{"at":"2026-07-01T00:00:00Z","sun_azimuth_deg":0,"sun_elevation_deg":-90},)"
+    R"({"at":"2026-07-01T06:00:00Z","sun_azimuth_deg":90,"sun_elevation_deg":0},)"
+    R"({"at":"2026-07-01T12:00:00Z","sun_azimuth_deg":90,"sun_elevation_deg":89.9},)"
+    R"({"at":"2026-07-05T12:00:00Z","sun_azimuth_deg":90,"sun_elevation_deg":89.9}])";
+
+std::string departing(const std::string& keys) {
+  return std::string(kFourMetres) + R"(,"departure":{)" + keys + "}";
+}
+
+TEST(DepartureRequest, ACheckHasItsWindowsAndTheRulesOfTheDay) {
+  const auto answer = kYard.checked(departing(
+      std::string(R"("from":"2026-07-01T00:00:00Z","to":"2026-07-01T12:00:00Z","min_sun_deg":20,)") +
+      R"("charge_percent":70,"min_charge_percent":30,)" + kSky));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const json::JsonValue& decision = *answer->find("decision");
+  const json::JsonValue* const departures = decision.find("departures");
+  ASSERT_NE(departures, nullptr);
+  ASSERT_EQ(departures->find("windows")->elements.size(), 1U);
+  // The sun is 20 deg high a little over an hour after 6 h.
+  const std::string& from = departures->find("windows")->elements[0].find("from")->text;
+  EXPECT_GE(from, "2026-07-01T07:15:00Z");
+  EXPECT_LE(from, "2026-07-01T07:30:00Z");
+  const json::JsonValue& best = *departures->find("best");
+  EXPECT_GT(best.find("stations")->elements.size(), 2U);
+  EXPECT_EQ(departures->find("tried")->elements.size(), 49U);
+  int rules = 0;
+  for (const json::JsonValue& rule : decision.find("rules")->elements)
+    rules += rule.find("rule")->text == "sun" || rule.find("rule")->text == "charge" ? 1 : 0;
+  EXPECT_EQ(rules, 2);
+}
+
+TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
+  const auto answer = kYard.checked(departing(
+      std::string(R"("from":"2026-07-01T01:00:00Z","to":"2026-07-01T03:00:00Z","min_sun_deg":0,)") + kSky));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const json::JsonValue& decision = *answer->find("decision");
+  EXPECT_EQ(decision.find("verdict")->text, "no_go");
+  EXPECT_NE(decision.find("reasons")->elements[0].text.find("no departure"), std::string::npos)
+      << decision.find("reasons")->elements[0].text;
+}
+
+TEST(DepartureRequest, EveryFaultHasItsPlace) {
+  using Places = std::vector<std::string>;
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-07-01")")), Places{"/departure/from"});
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-02-30T00:00:00Z")")), Places{"/departure/from"});
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-07-01T00:00:00Z","to":"2026-06-01T00:00:00Z")")),
+            Places{"/departure/to"});
+  EXPECT_EQ(kYard.faults_of(
+                departing(R"("from":"2026-07-01T00:00:00Z","to":"2027-07-01T00:00:00Z","every_min":1)")),
+            Places{"/departure/every_min"});
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-07-01T00:00:00Z","speed":1)")),
+            Places{"/departure/speed"});
+  EXPECT_EQ(kYard.faults_of(departing(std::string(R"("from":"2026-07-09T00:00:00Z",)") + kSky)),
+            Places{"/departure/sky"});
+  EXPECT_EQ(
+      kYard.faults_of(departing(std::string(R"("from":"2026-07-01T00:00:00Z","min_earth_deg":5,)") + kSky)),
+      Places{"/departure/sky"});
+  EXPECT_EQ(testing::YardRequests("zhurong-class")
+                .faults_of(departing(std::string(R"("from":"2026-07-01T00:00:00Z","min_charge_percent":5,)") +
+                                     kSky)),
+            Places{"/departure/min_charge_percent"});
+}
+
+TEST(DepartureRequest, ReadsBackAsItIsWritten) {
+  const std::string given =
+      std::string(
+          R"({"departure":{"from":"2026-07-01T00:00:00.500Z","to":"2026-07-01T03:00:00Z","every_min":10,)") +
+      R"("charge_percent":70,"optical_depth":0.5,"air":{"coldest_c":-80,"warmest_c":-10},"min_charge_percent":30,)" +
+      R"("min_sun_deg":5,"light_left_h":1.5,"arrive_by":"2026-07-02T00:00:00Z",)" + kSky + "}}";
+  const auto read = [](const std::string& bytes) {
+    const auto document = json::parse(bytes);
+    std::vector<Fault> faults;
+    json::ObjectReader reader(*document, "", faults);
+    std::optional<DepartureRequest> departure;
+    json::read_departure(reader, departure);
+    EXPECT_TRUE(faults.empty()) << faults.front().message;
+    json::Writer w;
+    w.begin_object();
+    json::write_departure(w, departure.value());
+    w.end_object();
+    return w.take();
+  };
+  const std::string once = read(given);
+  EXPECT_EQ(read(once), once);
+  EXPECT_NE(once.find("00:00:00.500Z"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace slipway::api
