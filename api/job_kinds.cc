@@ -15,14 +15,17 @@
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil/soil_estimate_document.h"
+#include "api/documents/sol_document.h"
 #include "api/maps/map_documents.h"
 #include "api/report/check_report.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
 #include "api/report/route_map.h"
+#include "api/report/sol_report.h"
 #include "api/service_diagnoses.h"
 #include "api/service_drives.h"
 #include "api/service_map.h"
+#include "api/service_sol.h"
 #include "api/service_uploads.h"
 
 namespace slipway::api {
@@ -123,6 +126,13 @@ std::vector<JobKind> all_kinds() {
           .lane = Lane::kShort,
           .may_name_model = true,
           .may_name_plan = true}),
+      job_kind(JobKindRow<PlanRequest, SolAnswer>{.name = std::string(kSolKind),
+                                                  .path = "/v1/sols",
+                                                  .read = &read_sol,
+                                                  .run = &run_sol,
+                                                  .write = &json::write_sol,
+                                                  .page = &sol_report,
+                                                  .may_name_model = true}),
       job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
                                                              .path = "/v1/diagnoses",
                                                              .read = &read_diagnosis,

@@ -15,6 +15,7 @@ namespace slipway::api {
 inline constexpr std::string_view kPlanKind = "plan";
 inline constexpr std::string_view kPredictionKind = "prediction";
 inline constexpr std::string_view kCheckKind = "check";
+inline constexpr std::string_view kSolKind = "sol";
 inline constexpr std::string_view kDiagnosisKind = "diagnosis";
 inline constexpr std::string_view kWatchKind = "watch";  // which has a diagnosis after an alarm
 

@@ -36,6 +36,7 @@ int run_command_line(int argc, char** argv) {
   std::function<int()> run;
   add_serve_command(app, run);
   add_plan_command(app, run);
+  add_sol_command(app, run);
   add_predict_command(app, run);
   add_wheel_command(app, run);
   add_current_command(app, run);

@@ -101,6 +101,13 @@ int plan(const PlanOptions& given) {
   return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status);
 }
 
+int sol(const PlanOptions& options) {
+  const auto request = options.request.empty() ? plan_request(options) : read_request(options.request);
+  Pictures pictures;
+  pictures.report = options.report;
+  return ask_and_print(options.ask, pictures, request, &Inquiry::sol, &sol_table, &check_status);
+}
+
 namespace {
 
 constexpr const char* kPlanExample =
@@ -112,6 +119,26 @@ constexpr const char* kPlanExample =
     "  slipway check --commands route.json";
 
 }  // namespace
+
+void add_sol_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* command = app.add_subcommand(
+      "sol", "a sol for the meeting: the route that fits into the day, its checks, its way back");
+  add_ask(*command, options->ask);
+  add_why(*command, options->ask);
+  add_drive(*command, options->drive);
+  add_place(*command, "--start", options->start, "x,y or x,y,yaw_deg in map metres");
+  add_place(*command, "--goal", options->goal, "x,y or x,y,yaw_deg in map metres");
+  add_places(*command, "--via", options->via, "waypoints in order");
+  command->add_option("--routes", options->routes, "how many routes that differ");
+  command->add_option("--request", options->request,
+                      "file with a whole request, - for standard input; other options are not used");
+  command->add_option("--report", options->report, "write the page to this file (HTML)");
+  command->footer(
+      "Example:\n  slipway sol --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --depart "
+      "2016-03-22T00:00:00Z..2016-03-23T00:00:00Z --day min_sun_deg=10 --report sol.html");
+  command->callback([options, &run] { run = [options] { return sol(*options); }; });
+}
 
 void add_plan_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PlanOptions>();

@@ -28,6 +28,7 @@ struct PlanOptions {
   std::optional<double> tail;
   std::string commands;  // file for a route's commands; empty: none
   int route = 1;         // whose
+  std::string report;    // of a sol: a file for its page; empty: none
   bool compare = false;  // with the plan of the model that was corrected
 };
 
@@ -37,5 +38,6 @@ int plan(const PlanOptions& options);
 
 // Adds the subcommand; `run` then runs it where it is given.
 void add_plan_command(CLI::App& app, std::function<int()>& run);
+void add_sol_command(CLI::App& app, std::function<int()>& run);
 
 }  // namespace slipway::server

@@ -42,6 +42,9 @@ class LocalInquiry final : public Inquiry {
   Result<std::string> check(const std::string& request, Progress& progress) override {
     return ask(api::kCheckKind, request, progress);
   }
+  Result<std::string> sol(const std::string& request, Progress& progress) override {
+    return ask(api::kSolKind, request, progress);
+  }
 
   Result<std::string> wheel_sweep(const std::string& request) override {
     const auto answer = api::run_wheel_sweep(*service_->catalogue(), request);
@@ -72,7 +75,9 @@ class LocalInquiry final : public Inquiry {
     return fmt::format("{}", fmt::join(series_, ""));
   }
 
-  Result<std::string> report() override { return api::check_report(*service_->catalogue(), last_); }
+  Result<std::string> report() override {
+    return api::find_kind(api::job_kinds(), kind_)->page(*service_->catalogue(), last_);
+  }
 
   Result<std::string> health() override { return api::json::write_health(); }
 
@@ -80,6 +85,7 @@ class LocalInquiry final : public Inquiry {
   Result<std::string> ask(std::string_view kind, const std::string& request, Progress& progress) {
     auto answer = work_(std::string(kind), request, progress);
     if (!answer) return fail(answer.error());
+    kind_ = kind;
     last_ = std::move(answer->bytes);
     series_ = std::move(answer->series);
     return last_;
@@ -87,7 +93,7 @@ class LocalInquiry final : public Inquiry {
 
   std::unique_ptr<api::Service> service_;
   api::JobWork work_;
-  std::string last_;
+  std::string kind_, last_;
   std::vector<std::string> series_;  // of it
 };
 
@@ -111,6 +117,9 @@ class RemoteInquiry final : public Inquiry {
   }
   Result<std::string> check(const std::string& request, Progress& progress) override {
     return job(api::find_kind(api::job_kinds(), api::kCheckKind)->path, request, progress);
+  }
+  Result<std::string> sol(const std::string& request, Progress& progress) override {
+    return job(api::find_kind(api::job_kinds(), api::kSolKind)->path, request, progress);
   }
   Result<std::string> wheel_sweep(const std::string& request) override {
     return call("POST", "/v1/wheel-sweeps", request, {});

@@ -18,6 +18,7 @@ class Inquiry {
   virtual Result<std::string> plan(const std::string& request, Progress& progress) = 0;
   virtual Result<std::string> predict(const std::string& request, Progress& progress) = 0;
   virtual Result<std::string> check(const std::string& request, Progress& progress) = 0;
+  virtual Result<std::string> sol(const std::string& request, Progress& progress) = 0;
   virtual Result<std::string> wheel_sweep(const std::string& request) = 0;
   // "terrains", "rovers", "soils", "effects", "planners".
   virtual Result<std::string> catalogue(std::string_view kind) = 0;
@@ -26,7 +27,7 @@ class Inquiry {
   virtual Result<std::string> map() = 0;
   // All stations of the last answer as CSV, those too that its document leaves out.
   virtual Result<std::string> stations() = 0;
-  // The report of the last check that was answered, as an HTML page.
+  // The report of the last check or sol that was answered, as an HTML page.
   virtual Result<std::string> report() = 0;
   // Whether there is anybody.
   virtual Result<std::string> health() = 0;

@@ -7,6 +7,7 @@
 
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/json/writer.h"
 #include "planner/problem/verdict.h"
 #include "server/cli/terminal/tables.h"
 #include "server/cli/terminal/text_table.h"
@@ -299,6 +300,30 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
   out += measured_line(*document) + unseen_line(*document);
   if (summary.empty()) return out;
   return why ? out + why_routes(*document) + learnt_lines(*document) : out + "Say more: --why\n";
+}
+
+Result<std::string> sol_table(std::string_view answer, bool why) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  api::json::Writer plan;
+  api::json::write_value(plan, at(*document, "plan"));
+  auto out = plan_table(plan.take(), why);
+  if (!out) return out;
+  const auto place_line = [](const char* what, const JsonValue& place) {
+    return fmt::format("{} {:.1f} m, at ({:.1f}, {:.1f}): {}\n", what, number(place, "at_m"),
+                       number(place, "x_m"), number(place, "y_m"), text(place, "why"));
+  };
+  for (const JsonValue& check : at(*document, "checks").elements)
+    *out += place_line("Check the slip before", check);
+  for (const auto& [key, what] :
+       {std::pair{"time_runs_out", "Time runs out at"}, {"worst", "The worst place is at"}})
+    if (!is_null(at(*document, key))) *out += place_line(what, at(*document, key));
+  const JsonValue& back = at(*document, "back_out");
+  if (!is_null(back))
+    *out += fmt::format(
+        "Backing out of it to the start: {}{}\n", planner::verdict_words(text(back, "verdict")),
+        at(back, "reasons").elements.empty() ? "" : ", " + at(back, "reasons").elements.front().text);
+  return out;
 }
 
 Result<std::string> check_table(std::string_view answer, bool why) {

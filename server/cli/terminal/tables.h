@@ -11,6 +11,7 @@ namespace slipway::server {
 // Errors: internal, where the document is not of that kind.
 // Of a plan, a prediction or a check: at most 15 lines, and with `why` all that led to them.
 Result<std::string> plan_table(std::string_view answer, bool why);
+Result<std::string> sol_table(std::string_view answer, bool why);
 Result<std::string> prediction_table(std::string_view answer, bool why);
 Result<std::string> check_table(std::string_view answer, bool why);
 Result<std::string> comparison_table(std::string_view comparison);

@@ -1,0 +1,119 @@
+#include "api/report/sol_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "api/chart/report_page.h"
+#include "api/json/lookup.h"
+#include "api/json/parse.h"
+#include "api/json/writer.h"
+#include "api/report/route_map.h"
+#include "planner/problem/verdict.h"
+
+namespace slipway::api {
+namespace {
+
+using json::at;
+using json::has;
+using json::JsonValue;
+using json::number;
+using json::text;
+
+std::string place_words(const JsonValue& place) {
+  return fmt::format("{:.1f} m, at ({:.1f}, {:.1f})", number(place, "at_m"), number(place, "x_m"),
+                     number(place, "y_m"));
+}
+
+void add_day(ReportPage& page, const JsonValue& departures) {
+  page.section("The day");
+  for (const JsonValue& window : at(departures, "windows").elements)
+    page.item(fmt::format("Depart between {} and {}", text(window, "from"), text(window, "to")));
+  const JsonValue& drive = at(departures, has(departures, "best") ? "best" : "nearest");
+  page.paragraph(
+      fmt::format("{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
+                  "{:.0f} % of the "
+                  "time. The battery holds {:.0f} % at the arrival ({:.0f} % at the worse pace): {:.0f} Wh "
+                  "gained, {:.0f} Wh "
+                  "used, {:.0f} Wh spilled.",
+                  has(departures, "best") ? "Best at" : "No departure keeps the rules of the day; nearest is",
+                  text(drive, "departs"), text(drive, "arrives"), text(drive, "arrives_late"),
+                  100.0 * number(drive, "lit_share"), number(drive, "charge_percent"),
+                  number(drive, "charge_low_percent"), number(drive, "gained_wh"), number(drive, "used_wh"),
+                  number(drive, "spilled_wh")));
+  if (has(departures, "halt"))
+    page.paragraph(fmt::format("Halt for {:.1f} h at {:.1f} m to charge.",
+                               number(at(departures, "halt"), "hours"),
+                               number(at(departures, "halt"), "at_m")));
+  page.table({"rule of the day", "verdict"});
+  for (const JsonValue& rule : at(drive, "rules").elements)
+    page.row({text(rule, "words"), std::string(planner::verdict_words(text(rule, "verdict")))});
+}
+
+void add_places(ReportPage& page, const JsonValue& sol) {
+  page.section("Where to check the slip");
+  if (at(sol, "checks").elements.empty()) page.paragraph("On no stretch is a halt likely enough.");
+  for (const JsonValue& check : at(sol, "checks").elements)
+    page.item(fmt::format("{}: {}", place_words(check), text(check, "why")));
+  page.section("If it does not come to the end");
+  if (has(sol, "time_runs_out"))
+    page.paragraph(fmt::format("When the time is over: {}. {}.", place_words(at(sol, "time_runs_out")),
+                               text(at(sol, "time_runs_out"), "why")));
+  if (has(sol, "worst"))
+    page.paragraph(fmt::format("The worst place: {}. {}.", place_words(at(sol, "worst")),
+                               text(at(sol, "worst"), "why")));
+  else
+    page.paragraph("No draw of the ground halts the rover.");
+  if (!has(sol, "back_out")) return;
+  const JsonValue& back = at(sol, "back_out");
+  page.paragraph(
+      fmt::format("Backing out of it to the start is {}: {}.", planner::verdict_words(text(back, "verdict")),
+                  at(back, "reasons").elements.empty() ? std::string("no reason")
+                                                       : at(back, "reasons").elements.front().text));
+}
+
+void add_commands(ReportPage& page, const JsonValue& route) {
+  page.section("Commands");
+  page.table({"command"});
+  for (const JsonValue& command : at(route, "commands").elements) {
+    std::string words;
+    for (std::size_t k = 0; k < command.keys.size(); ++k)
+      words += fmt::format("{}{} {:g}", words.empty() ? "" : ", ", command.keys[k], command.elements[k].number);
+    page.row({words});
+  }
+}
+
+}  // namespace
+
+Result<std::string> sol_report(const Catalogue& catalogue, std::string_view document) {
+  const auto sol = json::parse(document, {.bytes = document.size(), .values = document.size()});
+  if (!sol) return fail(sol.error());
+  const std::string& verdict = text(*sol, "verdict");
+  ReportPage page(fmt::format("A sol of {} on {}", text(*sol, "rover"), text(*sol, "terrain")));
+  page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
+                                                            : verdict == "no_go" ? ReportPage::Tone::kBad
+                                                                                 : ReportPage::Tone::kOpen);
+  for (const JsonValue& reason : at(*sol, "reasons").elements) page.item(reason.text);
+  const JsonValue& plan = at(*sol, "plan");
+  const auto& summary = at(plan, "summary").elements;
+  if (summary.empty()) return page.html();
+  const JsonValue& route = summary.front();
+  const long minutes = std::lround(number(route, "duration_s") / 60.0);
+  page.paragraph(fmt::format("{:.1f} m in {}:{:02d} h of driving with {:.0f} Wh of the drive motors.",
+                             number(route, "length_m"), minutes / 60, minutes % 60,
+                             has(route, "energy_wh") ? number(route, "energy_wh") : 0.0));
+  json::Writer w;
+  json::write_value(w, plan);
+  auto map = draw_route_map(catalogue, w.take());
+  if (!map) return fail(map.error());
+  page.picture({"map", *std::move(map)}, "The routes of the plan, by slip");
+  const JsonValue& decision =
+      at(at(at(at(plan, "routes"), "features").elements.front(), "properties"), "decision");
+  if (has(decision, "departures")) add_day(page, at(decision, "departures"));
+  add_places(page, *sol);
+  add_commands(page, route);
+  return page.html();
+}
+
+}  // namespace slipway::api

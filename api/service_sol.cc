@@ -1,0 +1,123 @@
+#include "api/service_sol.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "api/service_drives.h"
+#include "core/utc.h"
+#include "planner/problem/departure.h"
+#include "planner/search/stage_progress.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr double kPlanned = 0.85;        // of the work
+constexpr double kLikelyEnough = 0.005;  // a halt on a stretch
+constexpr double kCorner_m = 1.0;        // between corners of the way back
+
+PlaceOnWay place_at(const sim::DrivePrediction& drive, double at_m, std::string why) {
+  const auto& stations = drive.stations;
+  const auto after = std::find_if(
+      stations.begin(), stations.end(),
+      [&](const sim::StationPrediction& station) { return station.station.distance_m >= at_m - 1e-9; });
+  const sim::StationPrediction& station = after == stations.end() ? stations.back() : *after;
+  return {station.station.distance_m, station.station.pose.x_m, station.station.pose.y_m, std::move(why)};
+}
+
+std::vector<PlaceOnWay> checks_of(const sim::DrivePrediction& drive) {
+  std::vector<PlaceOnWay> checks;
+  for (const sim::StretchRisk& stretch : drive.outcomes.stretches)
+    if (stretch.expected_stops + stretch.embedding > kLikelyEnough)
+      checks.push_back(
+          place_at(drive, stretch.from_m,
+                   fmt::format("a halt or an embedding in {:.1f} % of the draws from here to {:.0f} m",
+                               100.0 * (stretch.expected_stops + stretch.embedding), stretch.to_m)));
+  return checks;
+}
+
+std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
+  const auto worst = std::max_element(
+      drive.stations.begin(), drive.stations.end(),
+      [](const sim::StationPrediction& a, const sim::StationPrediction& b) { return a.stops < b.stops; });
+  if (worst == drive.stations.end() || worst->stops <= 0.0) return std::nullopt;
+  return place_at(drive, worst->station.distance_m,
+                  fmt::format("{:.1f} % of the draws halt here first", 100.0 * worst->stops));
+}
+
+// Where a drive that leaves at the best moment and goes at the slow pace is when its time is over.
+std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& departures,
+                                                  const planner::DepartureRules& rules,
+                                                  const sim::DrivePrediction& drive) {
+  if (!departures.best || !rules.arrive_by) return std::nullopt;
+  const planner::TimedDrive& timed = *departures.best;
+  const double whole = static_cast<double>(timed.arrives_ms - timed.departs_ms),
+               slow = static_cast<double>(timed.arrives_late_ms - timed.departs_ms);
+  const planner::TimedStation* last = nullptr;
+  for (const planner::TimedStation& at : timed.stations) {
+    const double late_ms =
+        static_cast<double>(at.utc_ms - timed.departs_ms) * (whole > 0.0 ? slow / whole : 1.0);
+    if (static_cast<double>(timed.departs_ms) + late_ms <= static_cast<double>(*rules.arrive_by)) last = &at;
+  }
+  if (last == nullptr || last == &timed.stations.back()) return std::nullopt;
+  return place_at(drive, last->distance_m,
+                  fmt::format("here the rover is at the slow pace at {}", utc_text(*rules.arrive_by)));
+}
+
+// The way from a place back to the start, driven backwards.
+CheckRequest back_from(const PlanRequest& plan, const sim::DrivePrediction& drive, const PlaceOnWay& from) {
+  CheckRequest check;
+  check.terrain = plan.terrain;
+  check.rover = plan.rover;
+  check.keep_out = plan.keep_out;
+  check.keep_in = plan.keep_in;
+  check.drive = plan.drive;
+  check.drive.departure.reset();
+  check.manner.backwards = true;
+  double last = from.at_m + 2.0 * kCorner_m;
+  for (auto station = drive.stations.rbegin(); station != drive.stations.rend(); ++station) {
+    const double at = station->station.distance_m;
+    if (at > from.at_m + 1e-9 || (last - at < kCorner_m && at > 0.0)) continue;
+    if (!check.path.empty() && last - at < 1e-6) continue;
+    check.path.push_back({station->station.pose.x_m, station->station.pose.y_m, {}});
+    last = at;
+  }
+  return check;
+}
+
+}  // namespace
+
+Result<PlanRequest> read_sol(const Service& service, std::string_view json) {
+  auto request = read_plan(service, json);
+  if (request && !request->drive.departure)
+    return fail(ErrorCode::kInvalidRequest, "a sol is planned for a day",
+                {{"/departure", "is missing: say from when to when the drive may begin"}});
+  return request;
+}
+
+Result<SolAnswer> run_sol(const Service& service, const PlanRequest& request, Progress& progress) {
+  planner::StageProgress planning(progress, "planning", 0.0, kPlanned);
+  auto plan = run_plan(service, request, planning);
+  if (!plan) return fail(plan.error());
+  SolAnswer answer{.plan = std::move(*plan)};
+  if (answer.plan.plan.routes.empty()) return answer;
+  const planner::Route& route = answer.plan.plan.routes.front();
+  const sim::DrivePrediction& drive = route.prediction;
+  if (drive.stations.empty()) return answer;
+  answer.checks = checks_of(drive);
+  answer.worst = worst_of(drive);
+  if (route.decision.departures)
+    answer.time_runs_out =
+        place_when_time_is_over(*route.decision.departures, request.drive.departure->rules, drive);
+  if (!answer.worst) return answer;
+  const CheckRequest back = back_from(request, drive, *answer.worst);
+  if (back.path.size() < 2) return answer;
+  planner::StageProgress backing(progress, "backing out of the worst place", kPlanned, 1.0);
+  auto back_out = run_check(service, back, backing);
+  if (!back_out) return fail(back_out.error());
+  answer.back_out = std::move(*back_out);
+  return answer;
+}
+
+}  // namespace slipway::api
