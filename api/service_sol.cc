@@ -46,12 +46,12 @@ std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
                   fmt::format("{:.1f} % of the draws halt here first", 100.0 * worst->stops));
 }
 
-// Where a drive that leaves at the best moment and goes at the slow pace is when its time is over.
+// Where a drive that leaves at the best moment, or the nearest, is at the slow pace when its time is over.
 std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& departures,
                                                   const planner::DepartureRules& rules,
                                                   const sim::DrivePrediction& drive) {
-  if (!departures.best || !rules.arrive_by) return std::nullopt;
-  const planner::TimedDrive& timed = *departures.best;
+  if (!rules.arrive_by) return std::nullopt;
+  const planner::TimedDrive& timed = departures.best ? *departures.best : departures.nearest;
   const double whole = static_cast<double>(timed.arrives_ms - timed.departs_ms),
                slow = static_cast<double>(timed.arrives_late_ms - timed.departs_ms);
   const planner::TimedStation* last = nullptr;
@@ -100,7 +100,8 @@ Result<SolAnswer> run_sol(const Service& service, const PlanRequest& request, Pr
   planner::StageProgress planning(progress, "planning", 0.0, kPlanned);
   auto plan = run_plan(service, request, planning);
   if (!plan) return fail(plan.error());
-  SolAnswer answer{.plan = std::move(*plan)};
+  SolAnswer answer;
+  answer.plan = std::move(*plan);
   if (answer.plan.plan.routes.empty()) return answer;
   const planner::Route& route = answer.plan.plan.routes.front();
   const sim::DrivePrediction& drive = route.prediction;
