@@ -349,6 +349,31 @@ class Contract(WithServer):
             problem = self.refused("/v1/plans", plan(rover="mer", model={"diagnosis": job}), 422, "/rover", "/model/diagnosis")
             self.assertIn(reason, problem["faults"][1]["message"])
 
+    def test_a_sol_is_a_page_with_its_day_its_checks_and_its_way_back(self):
+        day = {"from": "2016-03-22T05:00:00Z", "to": "2016-03-22T15:00:00Z", "min_sun_deg": 10, "charge_percent": 60, "min_charge_percent": 40}
+        request = {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, "routes": 1, "draws": 24, "departure": day}
+        status, headers, body = self.server.ask("POST", "/v1/sols", request, {"Prefer": "wait=30"})
+        self.assertIn(status, (200, 201), body[:500])
+        location = headers["Location"] if status == 201 else headers["Content-Location"].replace("/result", "")
+        sol = json.loads(body) if status == 200 else json.loads(self.server.wait_for(location))
+        self.assertEqual((sol["format"], sol["plan"]["format"]), ("sol/1", "plan/1"))
+        departures = sol["plan"]["routes"]["features"][0]["properties"]["decision"]["departures"]
+        (window,) = departures["windows"]
+        self.assertLess(window["from"], departures["best"]["arrives"])
+        best = departures["best"]
+        held = 60 + 100 * (best["gained_wh"] - best["used_wh"] - best["spilled_wh"]) / 2350
+        self.assertAlmostEqual(held, best["charge_percent"], delta=0.1)
+        self.assertEqual(len(departures["tried"]), 41)
+        if sol["worst"]:
+            self.assertEqual(sol["back_out"]["format"], "check/1")
+            self.assertTrue(sol["back_out"]["request"]["backwards"])
+        status, headers, page = self.server.ask("GET", location + "/report")
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        for words in ("A sol of msl-class on gale", "The day", "Where to check the slip", "Commands"):
+            self.assertIn(words, page.decode())
+        self.refused("/v1/sols", {k: v for k, v in request.items() if k != "departure"}, 422, "/departure")
+        self.refused("/v1/sols", {**request, "departure": {**day, "to": "noon", "min_sun_deg": 99}}, 422, "/departure/to", "/departure/min_sun_deg")
+
     def test_bad_requests_name_every_fault(self):
         self.refused("/v1/plans", "{", 400)
         self.refused("/v1/plans", '{"start": NaN}', 400)

@@ -447,6 +447,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/sols": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A sol for the meeting: the route that fits into the day, where to check the slip, and the way back out of the worst place
+         * @description A job like a plan, whose request must say when the drive may begin (departure). GET /v1/jobs/{id}/report is its page.
+         */
+        post: operations["create_sol"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/model-checks": {
         parameters: {
             query?: never;
@@ -3269,11 +3289,11 @@ export interface components {
             arrives_late: string;
             /** @description Of the battery at the arrival, at the median pace and energy [%] */
             charge_percent: number;
-            /** @description The same at the 95th percentile of both [%] */
+            /** @description The lower of this and what the 95th percentiles of both leave [%] */
             charge_low_percent: number;
             /** @description On the way, at the median pace and energy [%] */
             least_charge_percent: number;
-            /** @description The same at the 95th percentile of both [%] */
+            /** @description The lower of this and what the 95th percentiles of both leave [%] */
             least_charge_low_percent: number;
             /** @description Share of the time in which the sun is over the ground's horizon */
             lit_share: number;
@@ -3305,7 +3325,7 @@ export interface components {
                 out_w: number;
                 /** @description Of the battery, at the median pace and energy [%] */
                 charge_percent: number;
-                /** @description The same at the 95th percentile of both [%] */
+                /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 charge_low_percent: number;
             }[];
         };
@@ -3346,11 +3366,11 @@ export interface components {
                 arrives_late: string;
                 /** @description Of the battery at the arrival, at the median pace and energy [%] */
                 charge_percent: number;
-                /** @description The same at the 95th percentile of both [%] */
+                /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 charge_low_percent: number;
                 /** @description On the way, at the median pace and energy [%] */
                 least_charge_percent: number;
-                /** @description The same at the 95th percentile of both [%] */
+                /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 least_charge_low_percent: number;
                 /** @description Share of the time in which the sun is over the ground's horizon */
                 lit_share: number;
@@ -3485,6 +3505,34 @@ export interface components {
             backwards?: boolean;
             /** @description Direction of travel from the body's axis, positive to the left [deg]. Left out: 0.0 */
             crab_deg?: number;
+        };
+        /** @description A place of the way */
+        PlaceOnWay: {
+            /** @description Along the way [m] */
+            at_m: number;
+            x_m: number;
+            y_m: number;
+            /** @description A sentence without its full stop */
+            why: string;
+        };
+        Sol: {
+            /** @constant */
+            format: "sol/1";
+            terrain: string;
+            rover: string;
+            /** @description Of the plan's first route; no_go where there is none */
+            verdict: components["schemas"]["Verdict"];
+            /** @description Of the verdict */
+            reasons: string[];
+            /** @description Where the slip is to be checked: before each stretch with a halt in more than 0.5 % of the draws */
+            checks: components["schemas"]["PlaceOnWay"][];
+            /** @description Where the rover is at arrive_by at the slow pace; null where it is at the goal by then, or no arrive_by is asked */
+            time_runs_out: components["schemas"]["PlaceOnWay"] | null;
+            /** @description Where most draws halt; null where none does */
+            worst: components["schemas"]["PlaceOnWay"] | null;
+            /** @description The check of the way from the worst place back to the start, driven backwards */
+            back_out: components["schemas"]["Check"] | null;
+            plan: components["schemas"]["Plan"];
         };
         Check: {
             /** @constant */
@@ -6001,6 +6049,133 @@ export interface operations {
                 };
             };
             /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_sol: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlanRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Sol"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request, off_map, no_data */
             422: {
                 headers: {
                     [name: string]: unknown;
