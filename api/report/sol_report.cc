@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "api/chart/report_page.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 #include "api/report/route_map.h"
+#include "core/utc.h"
 #include "planner/problem/verdict.h"
 
 namespace slipway::api {
@@ -24,6 +28,50 @@ using json::text;
 std::string place_words(const JsonValue& place) {
   return fmt::format("{:.1f} m, at ({:.1f}, {:.1f})", number(place, "at_m"), number(place, "x_m"),
                      number(place, "y_m"));
+}
+
+std::vector<double> of_each(const JsonValue& rows, std::string_view key) {
+  std::vector<double> values;
+  for (const JsonValue& row : rows.elements) values.push_back(number(row, key));
+  return values;
+}
+
+// Hours from the first departure that was tried.
+std::vector<double> departure_hours(const JsonValue& tried) {
+  std::vector<double> hours;
+  std::optional<std::int64_t> first;
+  for (const JsonValue& drive : tried.elements) {
+    const std::int64_t at_ms = utc_of_text(text(drive, "departs")).value_or(0);
+    if (!first) first = at_ms;
+    hours.push_back(static_cast<double>(at_ms - *first) / 3.6e6);
+  }
+  return hours;
+}
+
+// Battery and power along the way, and what each departure leaves in the battery.
+std::string day_charts(const JsonValue& departures, const JsonValue& drive) {
+  const JsonValue &stations = at(drive, "stations"), &tried = at(departures, "tried");
+  const auto line = [](std::string name, std::vector<double> x, std::vector<double> y, std::size_t colour) {
+    return ChartSeries{.name = std::move(name), .x = std::move(x), .y = std::move(y), .colour = colour};
+  };
+  const std::vector<double> way = of_each(stations, "distance_m");
+  std::vector<Chart> charts(3);
+  charts[0].title = "Battery on the way";
+  charts[0].x.title = charts[1].x.title = "way, m";
+  charts[0].y.title = "charge, %";
+  charts[0].series = {line("median pace", way, of_each(stations, "charge_percent"), 0),
+                      line("worse pace", way, of_each(stations, "charge_low_percent"), 1)};
+  charts[1].title = "Power";
+  charts[1].y.title = "power, W";
+  charts[1].series = {line("gained", way, of_each(stations, "in_w"), 2),
+                      line("used", way, of_each(stations, "out_w"), 6)};
+  charts[2].title = "By departure";
+  charts[2].x.title = "departure, h after the first";
+  charts[2].y.title = "least charge, %";
+  charts[2].series = {
+      line("median pace", departure_hours(tried), of_each(tried, "least_charge_percent"), 0),
+      line("worse pace", departure_hours(tried), of_each(tried, "least_charge_low_percent"), 1)};
+  return draw_charts("The day", charts);
 }
 
 void add_day(ReportPage& page, const JsonValue& departures) {
@@ -46,6 +94,9 @@ void add_day(ReportPage& page, const JsonValue& departures) {
     page.paragraph(fmt::format("Halt for {:.1f} h at {:.1f} m to charge.",
                                number(at(departures, "halt"), "hours"),
                                number(at(departures, "halt"), "at_m")));
+  page.picture(
+      {"day", day_charts(departures, drive)},
+      "Left and middle: along the way from the departure above. Right: every departure that was tried");
   page.table({"rule of the day", "verdict"});
   for (const JsonValue& rule : at(drive, "rules").elements)
     page.row({text(rule, "words"), std::string(planner::verdict_words(text(rule, "verdict")))});
@@ -79,7 +130,8 @@ void add_commands(ReportPage& page, const JsonValue& route) {
   for (const JsonValue& command : at(route, "commands").elements) {
     std::string words;
     for (std::size_t k = 0; k < command.keys.size(); ++k)
-      words += fmt::format("{}{} {:g}", words.empty() ? "" : ", ", command.keys[k], command.elements[k].number);
+      words +=
+          fmt::format("{}{} {:g}", words.empty() ? "" : ", ", command.keys[k], command.elements[k].number);
     page.row({words});
   }
 }
