@@ -201,14 +201,16 @@ void log_answer(const AnsweredRequest& answered) {
              {"seconds", answered.seconds}});
 }
 
+// Where a file lies; empty where there is none, or a database in its place.
+std::string folder_of(const std::string& file) {
+  if (file.empty() || api::is_database(file)) return {};
+  const auto folder = std::filesystem::path(file).parent_path();
+  return folder.empty() ? std::string(".") : folder.string();
+}
+
 // What the service needs to take work. The store and the workers must outlive the checks.
 std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::JobStore& store,
                                              const std::optional<WorkerProcesses>& workers) {
-  const auto folder_of = [](const std::string& file) {
-    if (file.empty() || api::is_database(file)) return std::string();
-    const auto folder = std::filesystem::path(file).parent_path();
-    return folder.empty() ? std::string(".") : folder.string();
-  };
   return {[&store]() -> std::optional<std::string> {
             const auto read = store.list(1);
             return read ? std::nullopt
@@ -301,7 +303,9 @@ int serve(const ServeOptions& given) {
   if (workers)
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
-  std::vector<Route> routes = api_routes(**service, runner, {.override_persons = options.override_persons});
+  RouteOptions of_routes{.override_persons = options.override_persons};
+  if (const std::string folder = folder_of(options.jobs); !folder.empty()) of_routes.drawing_folder = folder;
+  std::vector<Route> routes = api_routes(**service, runner, of_routes);
   const Readiness readiness(readiness_checks(options, *jobs->store, workers));
   const Operation operation{.metrics = metrics,
                             .store = *jobs->store,

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -84,27 +87,63 @@ VectorLayer route_layer(const JsonValue& document) {
   return layer;
 }
 
-// From the table of stations, whose columns have their units in their names.
-VectorLayer station_layer(std::string_view csv) {
-  VectorLayer layer{.name = "stations", .lines = false, .fields = {}, .features = {}};
-  const std::vector<CsvLine> lines = csv_lines(csv);
-  const auto names = csv_cells(lines.front().text);
-  for (const std::string_view name : names)
-    layer.fields.push_back({std::string(name), name == "soil" || name == "on_unknown_ground"});
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const auto cells = csv_cells(lines[i].text);
-    VectorFeature& made = layer.features.emplace_back();
-    made.points.push_back({0.0, 0.0, 0.0});
-    made.values.resize(names.size());
-    for (std::size_t k = 0; k < names.size() && k < cells.size(); ++k) {
-      const auto number = csv_number(cells[k]);
-      if (layer.fields[k].is_text && !cells[k].empty()) made.values[k] = std::string(cells[k]);
-      if (!layer.fields[k].is_text && number) made.values[k] = *number;
-      if (number && names[k] == "x_m") made.points[0][0] = *number;
-      if (number && names[k] == "y_m") made.points[0][1] = *number;
-      if (number && names[k] == "height_m") made.points[0][2] = *number;
-    }
+VectorFeature station_feature(const std::vector<VectorField>& fields, std::string_view line) {
+  const auto cells = csv_cells(line);
+  VectorFeature made{.points = {{0.0, 0.0, 0.0}}, .values = std::vector<VectorValue>(fields.size())};
+  for (std::size_t k = 0; k < fields.size() && k < cells.size(); ++k) {
+    const auto number = csv_number(cells[k]);
+    if (fields[k].is_text && !cells[k].empty()) made.values[k] = std::string(cells[k]);
+    if (!fields[k].is_text && number) made.values[k] = *number;
+    if (number && fields[k].name == "x_m") made.points[0][0] = *number;
+    if (number && fields[k].name == "y_m") made.points[0][1] = *number;
+    if (number && fields[k].name == "height_m") made.points[0][2] = *number;
   }
+  return made;
+}
+
+// From the table of stations, whose columns have their units in their names: those of a few rows at a time.
+class StationRows {
+ public:
+  StationRows(std::vector<VectorField> fields, std::string page, TablePages pages)
+      : fields_(std::move(fields)), page_(std::move(page)), pages_(std::move(pages)) {
+    at_ = std::min(page_.find('\n'), page_.size() - 1) + 1;
+  }
+
+  Result<std::vector<VectorFeature>> next() {
+    constexpr std::size_t kRows = 500;
+    std::vector<VectorFeature> some;
+    while (some.size() < kRows) {
+      if (at_ >= page_.size()) {
+        auto page = pages_();
+        if (!page) return fail(page.error());
+        if (!*page) break;
+        page_ = **std::move(page);
+        at_ = 0;
+      }
+      const std::size_t end = std::min(page_.find('\n', at_), page_.size());
+      const std::string_view line = std::string_view(page_).substr(at_, end - at_);
+      if (!line.empty()) some.push_back(station_feature(fields_, line));
+      at_ = end + 1;
+    }
+    return some;
+  }
+
+ private:
+  std::vector<VectorField> fields_;
+  std::string page_;
+  TablePages pages_;
+  std::size_t at_ = 0;  // of page_
+};
+
+Result<VectorLayer> station_layer(TablePages pages) {
+  VectorLayer layer{.name = "stations", .lines = false, .fields = {}, .features = {}};
+  auto first = pages();
+  if (!first) return fail(first.error());
+  if (!*first || (*first)->empty()) return fail(ErrorCode::kNoData, "The table of stations is empty.");
+  for (const std::string_view name : csv_cells(csv_lines(**first).front().text))
+    layer.fields.push_back({std::string(name), name == "soil" || name == "on_unknown_ground"});
+  const auto rows = std::make_shared<StationRows>(layer.fields, **std::move(first), std::move(pages));
+  layer.more = [rows] { return rows->next(); };
   return layer;
 }
 
@@ -186,12 +225,17 @@ VectorLayer check_layer(const JsonValue& document, const AlongRoute& along) {
   return layer;
 }
 
-Result<std::vector<VectorLayer>> layers_of(std::string_view answer, std::string_view stations) {
+Result<std::vector<VectorLayer>> layers_of(std::string_view answer, TablePages stations) {
+  if (!stations) {
+    auto csv = station_csv(answer);
+    if (!csv) return fail(csv.error());
+    stations = in_one_page(*std::move(csv));
+  }
+  auto of_stations = station_layer(std::move(stations));
+  if (!of_stations) return fail(of_stations.error());
   const auto document = read_answer_document(answer);
   if (!document) return fail(document.error());
-  auto csv = stations.empty() ? station_csv(answer) : Result<std::string>(stations);
-  if (!csv) return fail(csv.error());
-  std::vector<VectorLayer> layers{route_layer(*document), station_layer(*csv)};
+  std::vector<VectorLayer> layers{route_layer(*document), *std::move(of_stations)};
   layers[0].style_qml = route_style();
   layers[1].style_qml = station_style();
   const auto& routes = at(at(*document, "routes"), "features").elements;
@@ -205,17 +249,14 @@ Result<std::vector<VectorLayer>> layers_of(std::string_view answer, std::string_
 }
 
 // Turns every point to degrees. Errors: unsupported_crs.
-Result<void> turn_to_degrees(std::vector<VectorLayer>& layers, const AnswerMap& map) {
-  const dem::BodyDegrees degrees(map.crs_wkt, map.body, map.extent);
-  for (VectorLayer& layer : layers) {
-    for (VectorFeature& feature : layer.features) {
-      for (auto& point : feature.points) {
-        const auto place = degrees.to_degrees({point[0], point[1]});
-        if (!place)
-          return fail(ErrorCode::kUnsupportedCrs,
-                      "This terrain's map has no longitude and latitude: it lies on no body.");
-        point = {place->x, place->y, point[2]};
-      }
+Result<void> turn_to_degrees(std::vector<VectorFeature>& features, const dem::BodyDegrees& degrees) {
+  for (VectorFeature& feature : features) {
+    for (auto& point : feature.points) {
+      const auto place = degrees.to_degrees({point[0], point[1]});
+      if (!place)
+        return fail(ErrorCode::kUnsupportedCrs,
+                    "This terrain's map has no longitude and latitude: it lies on no body.");
+      point = {place->x, place->y, point[2]};
     }
   }
   return {};
@@ -267,8 +308,9 @@ std::string feature_name(const VectorLayer& layer) {
   return layer.name.ends_with('s') ? layer.name.substr(0, layer.name.size() - 1) : layer.name;
 }
 
-void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coordinates) {
-  for (const VectorFeature& feature : layer.features) {
+void write_features(Writer& w, const VectorLayer& layer, const std::vector<VectorFeature>& features,
+                    VectorCoordinates coordinates) {
+  for (const VectorFeature& feature : features) {
     if (feature.points.empty() && layer.name == "rules") continue;  // trips nowhere
     w.begin_object().text("type", "Feature");
     write_geometry(w, layer, feature, coordinates);
@@ -281,6 +323,47 @@ void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coord
     }
     w.end_object().end_object();
   }
+}
+
+Result<void> write_layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
+                                  VectorCoordinates coordinates, const ByteSink& out) {
+  const bool in_degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
+  const dem::BodyDegrees degrees(map.crs_wkt, map.body, map.extent);
+  Writer w;
+  const auto write = [&](const VectorLayer& layer, std::vector<VectorFeature>& features) -> Result<void> {
+    if (in_degrees)
+      if (auto turned = turn_to_degrees(features, degrees); !turned) return turned;
+    write_features(w, layer, features, coordinates);
+    return out(w.take());
+  };
+  w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
+  w.text("body", map.body);
+  if (const std::string name = in_degrees ? degrees_name(map) : map.crs_wkt; !name.empty()) {
+    w.key("crs").begin_object().text("type", "name");
+    w.key("properties").begin_object().text("name", name).end_object().end_object();
+  }
+  w.key("features").begin_array();
+  for (VectorLayer& layer : layers) {
+    if (auto written = write(layer, layer.features); !written) return written;
+    while (layer.more) {
+      auto some = layer.more();
+      if (!some) return fail(some.error());
+      if (some->empty()) break;
+      if (auto written = write(layer, *some); !written) return written;
+    }
+  }
+  w.end_array().end_object();
+  return out(w.take() + "\n");
+}
+
+Result<std::string> in_memory(const std::function<Result<void>(const ByteSink&)>& write) {
+  std::string all;
+  const auto written = write([&](std::string_view bytes) -> Result<void> {
+    all += bytes;
+    return {};
+  });
+  if (!written) return fail(written.error());
+  return all;
 }
 
 dem::Extent extent_of(const JsonValue& site) {
@@ -306,36 +389,44 @@ std::string terrain_of_answer(std::string_view answer) {
   return document ? text(*document, "terrain") : std::string();
 }
 
-Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
-                                   VectorCoordinates coordinates, std::string_view stations) {
-  auto layers = layers_of(answer, stations);
+TablePages in_one_page(std::string table) {
+  return [table = std::move(table), taken = false]() mutable -> Result<std::optional<std::string>> {
+    if (std::exchange(taken, true)) return std::nullopt;
+    return std::move(table);
+  };
+}
+
+Result<void> write_answer_geojson(std::string_view answer, const AnswerMap& map,
+                                  VectorCoordinates coordinates, TablePages stations, const ByteSink& out) {
+  auto layers = layers_of(answer, std::move(stations));
   if (!layers) return fail(layers.error());
-  return layers_geojson(*std::move(layers), map, coordinates);
+  return write_layers_geojson(*std::move(layers), map, coordinates, out);
+}
+
+Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
+                                   VectorCoordinates coordinates, TablePages stations) {
+  return in_memory([&](const ByteSink& out) {
+    return write_answer_geojson(answer, map, coordinates, std::move(stations), out);
+  });
 }
 
 Result<std::string> layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
                                    VectorCoordinates coordinates) {
-  const bool degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
-  if (degrees)
-    if (const auto turned = turn_to_degrees(layers, map); !turned) return fail(turned.error());
-  Writer w;
-  w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
-  w.text("body", map.body);
-  if (const std::string name = degrees ? degrees_name(map) : map.crs_wkt; !name.empty()) {
-    w.key("crs").begin_object().text("type", "name");
-    w.key("properties").begin_object().text("name", name).end_object().end_object();
-  }
-  w.key("features").begin_array();
-  for (const VectorLayer& layer : layers) write_features(w, layer, coordinates);
-  w.end_array().end_object();
-  return w.take() + "\n";
+  return in_memory(
+      [&](const ByteSink& out) { return write_layers_geojson(std::move(layers), map, coordinates, out); });
 }
 
-Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map,
-                                      std::string_view stations) {
-  const auto layers = layers_of(answer, stations);
+Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map, TablePages stations) {
+  const auto layers = layers_of(answer, std::move(stations));
   if (!layers) return fail(layers.error());
   return dem::encode_geopackage(*layers, map.crs_wkt);
+}
+
+Result<void> write_answer_geopackage(std::string_view answer, const AnswerMap& map, TablePages stations,
+                                     const std::string& path) {
+  const auto layers = layers_of(answer, std::move(stations));
+  if (!layers) return fail(layers.error());
+  return dem::write_geopackage(path, *layers, map.crs_wkt);
 }
 
 }  // namespace slipway::api::json

@@ -16,6 +16,10 @@
 
 namespace slipway::server {
 
+// Bodies and answers up to this size pass even when max_buffered_bytes is exhausted: a flood of large ones
+// must not shut out the small requests of everyone else.
+inline constexpr std::size_t kAlwaysBuffered = std::size_t{16} << 10;
+
 // The live form of HttpCounters, and the budget of which several threads take.
 struct LiveCounters {
   std::atomic<std::uint64_t> open_connections = 0;
@@ -40,7 +44,7 @@ struct WorkDone {
   std::uint64_t connection = 0;
   std::string unsent;  // what the client did not take at once: from `sent` on
   std::size_t sent = 0;
-  std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
+  std::size_t counted = 0;  // of the answer, or of its next piece, in the budget of buffered bytes already
   bool close = false;
   bool broken = false;  // the client has gone
   std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
@@ -74,7 +78,7 @@ class HttpWorkers {
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void go_on(Work work);
-  void keep(WorkDone& done, std::string unsent, std::size_t sent);
+  bool has_room(std::size_t bytes);
 
   const HttpOptions& options_;
   const Answers& answers_;

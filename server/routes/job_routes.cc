@@ -39,7 +39,8 @@ class JobRoutes {
   HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
     const auto submission = submission_of(request);
     if (!submission) return problem_response(submission.error(), &request);
-    auto recorded = kind.accept(service_, runner_.store(), request.body);
+    auto recorded =
+        kind.accept(service_, runner_.store(), {request.principal, request.is_admin}, request.body);
     if (!recorded) return problem_response(recorded.error(), &request);
     const Preferences preferences = preferences_of(request);
     const auto job = runner_.submit(kind.name, *std::move(recorded), *submission);
@@ -176,7 +177,7 @@ class JobRoutes {
 
 std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runner,
                               const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
-  const auto answers = std::make_shared<JobAnswers>(service, runner.store(), kinds);
+  const auto answers = std::make_shared<JobAnswers>(service, runner.store(), kinds, options.drawing_folder);
   const auto jobs = std::make_shared<JobRoutes>(service, runner, options, answers);
   std::vector<Route> routes{
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},

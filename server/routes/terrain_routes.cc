@@ -183,7 +183,7 @@ class TerrainRoutes {
   }
 
   const api::Service& service_;
-  DrawnCache drawn_{kPictureBytes};
+  DrawnCache<std::string> drawn_{kPictureBytes};
   std::mutex mutex_;
   std::map<std::string, Known> known_;
 };
