@@ -67,22 +67,6 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
   return workers;
 }
 
-// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
-// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
-void distrust_clock(api::JobStore& store, api::Retention& kept) {
-  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
-  const auto last = store.list(1);
-  if (!last || last->empty()) return;
-  const std::int64_t since = now_ms() - last->front().created_ms;
-  if (since <= kLongest_ms) return;
-  kept.most_age_ms = 1000 * 365 * kMsPerDay;
-  log_event(LogLevel::kWarning, "clock_far_ahead",
-            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
-             {"remedy",
-              "no job is forgotten for its age until the next start: set the clock right before it, "
-              "where it is wrong"}});
-}
-
 Result<Jobs> open_jobs(const ServeOptions& options) {
   const std::string& path = options.jobs;
   Jobs jobs;
@@ -103,7 +87,6 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   auto store = open_store(path, options.artefacts, api::StoreCheck::kWhole);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
-  distrust_clock(*jobs.store, *jobs.runner.kept);
   if (path.empty()) return jobs;
   // A process takes back at its start what one of its name left running when it died. One name for all would
   // take the jobs of a service that lives: only the holder of the lock works under the shared name.
@@ -298,6 +281,7 @@ int serve(const ServeOptions& given) {
           workers->ring();
         });
     runner.on_change([&] { workers->ring(); });
+    runner.on_shortage([&] { return workers->shortage(); });
   }
   if (const auto started = runner.start(); !started) return refuse(started.error());
   if (workers)

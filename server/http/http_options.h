@@ -45,6 +45,8 @@ struct HttpOptions {
   std::size_t worker_threads = 8;
   // As many heavy routes are answered at once, see Route: pictures, reports, long tables.
   std::size_t heavy_threads = 2;
+  // As many requests for work are checked, or wait for their end, at once.
+  std::size_t asking_threads = 6;
 
   // The largest request is a drive's telemetry as JSON; a day of one rover at 1 Hz is below 4 MiB.
   std::size_t max_body_bytes = std::size_t{4} << 20;

@@ -11,13 +11,14 @@ namespace slipway::server {
 HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
                          std::function<void(WorkDone)> done)
     : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
-  const auto begin = [this](std::size_t count, Queue& queue) {
+  const std::pair<Threads, std::size_t> sorts[] = {{Threads::kLight, options.worker_threads},
+                                                   {Threads::kHeavy, options.heavy_threads},
+                                                   {Threads::kAsking, options.asking_threads},
+                                                   {Threads::kPrompt, 1}};
+  for (const auto& sort : sorts) queues_[sort.first];
+  for (const auto& [sort, count] : sorts)
     for (std::size_t i = 0; i < std::max<std::size_t>(1, count); ++i)
-      threads_.emplace_back([this, &queue] { run(queue); });
-  };
-  begin(options.worker_threads, light_);
-  begin(options.heavy_threads, heavy_);
-  begin(1, prompt_);
+      threads_.emplace_back([this, &queue = queues_.at(sort)] { run(queue); });
 }
 
 HttpWorkers::~HttpWorkers() {
@@ -25,7 +26,7 @@ HttpWorkers::~HttpWorkers() {
 }
 
 void HttpWorkers::submit(Work work) {
-  Queue& queue = queue_of(work);
+  Queue& queue = queues_.at(threads_of(work));
   {
     const std::lock_guard lock(mutex_);
     queue.waiting.push_back(std::move(work));
@@ -33,11 +34,10 @@ void HttpWorkers::submit(Work work) {
   queue.condition.notify_one();
 }
 
-HttpWorkers::Queue& HttpWorkers::queue_of(const Work& work) {
-  if (work.pieces) return heavy_;
+Threads HttpWorkers::threads_of(const Work& work) const {
+  if (work.pieces) return Threads::kHeavy;
   const Route* const route = answers_.route_of(work.gathered.head);
-  if (route == nullptr) return light_;
-  return route->prompt ? prompt_ : route->heavy ? heavy_ : light_;
+  return route == nullptr ? Threads::kLight : route->threads;
 }
 
 void HttpWorkers::stop() {
@@ -45,7 +45,7 @@ void HttpWorkers::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  for (Queue* queue : {&light_, &heavy_, &prompt_}) queue->condition.notify_all();
+  for (auto& [sort, queue] : queues_) queue.condition.notify_all();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -51,8 +52,8 @@ struct WorkDone {
   BodyPieces pieces = {};  // which are to follow
 };
 
-// The threads in which handlers run, those of heavy routes in threads of their own. They never wait for a
-// client: what a socket does not take is given back.
+// The threads in which handlers run, see Threads. They never wait for a client: what a socket does not take
+// is given back.
 class HttpWorkers {
  public:
   // `answers` and `counters` outlive this; `done` is called from the threads.
@@ -74,7 +75,7 @@ class HttpWorkers {
     std::deque<Work> waiting;
   };
 
-  Queue& queue_of(const Work& work);
+  Threads threads_of(const Work& work) const;
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void go_on(Work work);
@@ -85,7 +86,7 @@ class HttpWorkers {
   LiveCounters& counters_;
   std::function<void(WorkDone)> done_;
   std::mutex mutex_;
-  Queue light_, heavy_, prompt_;
+  std::map<Threads, Queue> queues_;  // all there from the beginning
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr bool kHeavy = true;  // of a Route
+constexpr Threads kHeavy = Threads::kHeavy;
 
 class JobRoutes {
  public:
@@ -143,7 +143,7 @@ class JobRoutes {
   HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
     const std::optional<api::QueueEstimate> queue = queue_of(job);
     // What is before it changes without the job.
-    const std::string place = queue ? fmt::format("-{}", queue->ahead) : "";
+    const std::string place = queue ? fmt::format("-{}{}", queue->ahead, queue->shortage ? "-s" : "") : "";
     const std::string tag = fmt::format("\"{}-{}{}\"", job.id, job.version, place);
     // Most polls find nothing new: then nothing is written.
     HttpResponse response = document(is_known_to_client(request, tag) ? "" : status_of(job, queue));
@@ -200,8 +200,9 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };
   for (const api::JobKind& kind : kinds) {
-    routes.push_back(
-        {"POST", kind.path, [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); }});
+    routes.push_back({"POST", kind.path,
+                      [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); },
+                      Threads::kAsking});
     if (kind.has_report)
       routes.push_back({"GET", kind.path + "/{id}/report",
                         [answers](const HttpRequest& r) { return answers->report(r); }, kHeavy});

@@ -14,7 +14,8 @@ namespace slipway::server {
 
 struct RouteOptions {
   std::chrono::seconds longest_wait{30};  // a longer "Prefer: wait" is cut to this
-  int most_waiting = 4;  // waiting clients hold a handler's thread each: some must stay free for the others
+  int most_waiting =
+      4;  // clients hold one of HttpOptions::asking_threads each: some must stay free for others
   std::size_t most_listed = 500;
   // Where answers are drawn that are too large for the memory; as many as are kept take 256 MB.
   std::filesystem::path drawing_folder = std::filesystem::temp_directory_path();

@@ -15,7 +15,7 @@
 namespace slipway::server {
 namespace {
 
-constexpr bool kHeavy = true;  // of a Route
+constexpr Threads kHeavy = Threads::kHeavy;
 
 HttpResponse current(std::string body, const HttpRequest& request) {
   HttpResponse response = document(std::move(body));
