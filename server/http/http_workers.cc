@@ -117,8 +117,10 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
   if (outcome == Transfer::kSome) {
     std::string_view body = out.body;
     outcome = send_some(work.fd, body);
-    done.sent = out.body.size() - body.size();
-    if (outcome == Transfer::kBlocked) done.unsent = std::move(out.body);
+    if (outcome == Transfer::kBlocked) {
+      done.sent = out.body.size() - body.size();
+      done.unsent = std::move(out.body);
+    }
   } else if (outcome == Transfer::kBlocked) {
     done.unsent = std::string(front) + out.body;
   }

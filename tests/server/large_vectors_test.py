@@ -17,7 +17,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "contract"))
 from running_service import Server  # noqa: E402
 
-SIDE = 80
+SIDE = 300
 READERS = 16
 GRID = f"ncols {SIDE}\nnrows {SIDE}\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + ("0 " * SIDE + "\n") * SIDE
 MARS = "+proj=eqc +lat_ts=0 +lon_0=0 +R=3396190 +units=m +no_defs"
@@ -36,7 +36,8 @@ class LargeVectors(unittest.TestCase):
         sent = json.loads(self.server.ask("POST", "/v1/uploads?name=flat.asc", GRID.encode(), {"Content-Type": "application/octet-stream"})[2])
         flat = {"name": "flat", "elevation": sent["id"], "crs": MARS, "gravity_m_s2": 3.71}
         self.server.answer("/v1/terrains", flat)
-        path = [{"x_m": 35.0 + 10.0 * (k % 2), "y_m": 40.0} for k in range(2000)]
+        lanes = [(x, 20.0 + 3.8 * k) for k in range(68) for x in ((10.0, 285.0), (285.0, 10.0))[k % 2]]
+        path = [{"x_m": x, "y_m": y} for x, y in lanes]
         request = {"terrain": "flat", "rover": "msl-class", "path": path, "draws": 1}
         status, headers, body = self.server.ask("POST", "/v1/predictions", request, {"Prefer": "respond-async"})
         self.assertEqual(status, 201, body[:2000])

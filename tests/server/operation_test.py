@@ -155,11 +155,11 @@ class Operation(unittest.TestCase):
         status, headers, _ = server.ask("POST", "/v1/checks", CHECK, ASYNC)
         self.assertEqual(server.end_of(headers["Location"])["state"], "successful")
         server.stop()
+        with contextlib.closing(sqlite3.connect(self.folder / "jobs.sqlite")) as store:
+            day = 24 * 3600 * 1000  # as if the clock were 400 days ahead from now on
+            store.execute("UPDATE jobs SET created_ms = created_ms - 400 * ?, ended_ms = ended_ms - 400 * ?", (day, day))
+            store.commit()
         for _ in range(2):
-            with contextlib.closing(sqlite3.connect(self.folder / "jobs.sqlite")) as store:
-                day = 24 * 3600 * 1000  # as if the clock were 400 days ahead, and at the next start again
-                store.execute("UPDATE jobs SET created_ms = created_ms - 400 * ?, ended_ms = ended_ms - 400 * ?", (day, day))
-                store.commit()
             server = self.serve()
             self.assertEqual(server.end_of(server.ask("POST", "/v1/checks", CHECK, ASYNC)[1]["Location"])["state"], "successful")
             self.assertEqual(server.ask("GET", headers["Location"] + "/result")[0], 200)
@@ -188,11 +188,11 @@ class Operation(unittest.TestCase):
 
         def ask_for_plans():
             while not over.is_set():  # each is checked, and refused for its last place
-                server.ask("POST", "/v1/batches", {"kind": "plan", "requests": [plan(seed=k) for k in range(200)] + [{}]})
+                server.ask("POST", "/v1/batches", {"kind": "plan", "requests": [plan(seed=k) for k in range(999)] + [{}]})
         askers = [threading.Thread(target=ask_for_plans) for _ in range(16)]
         for asker in askers:
             asker.start()
-        for _ in range(100):
+        for _ in range(50):
             began = time.time()
             self.assertEqual(server.ask("GET", location)[0], 200)
             took.append(time.time() - began)
