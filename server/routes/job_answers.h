@@ -75,7 +75,7 @@ class JobAnswers {
   const std::vector<api::JobKind>& kinds_;
   std::filesystem::path drawing_folder_;
   DrawnCache<std::string> drawn_{kDrawnBytes};
-  DrawnCache<DrawnFile> drawn_files_{kDrawnFileBytes};
+  DrawnCache<DrawnFile> drawn_files_{kDrawnFileBytes, /*one_by_one=*/true};
   std::mutex page_bytes_mutex_;
   std::unordered_map<std::string, std::vector<std::uint64_t>>
       page_bytes_;  // of jobs' pages, which never change

@@ -280,7 +280,7 @@ TEST_P(JobStores, AClockThatIsSetFarAheadMakesNoJobTooOldHoweverOften) {
       ids.push_back(accept());
       ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer"}, now_).value());
       now_ += 400 * kDay;
-      if (start < 2) EXPECT_EQ(store_->forget_ended(kept, now_).value(), 0) << start;
+      EXPECT_EQ(store_->forget_ended(kept, now_).value(), 0) << start;
     }
     for (const std::string& id : ids) EXPECT_TRUE(store_->get(id).value().has_value());
     now_ -= 400 * kDay;  // it is set right again

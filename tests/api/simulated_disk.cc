@@ -23,7 +23,7 @@ namespace {
 
 SimulatedDisk* disk = nullptr;
 
-void apply(std::string& bytes, const DiskFile::Change& change) {
+void make(std::string& bytes, const DiskFile::Change& change) {
   if (change.cuts) return bytes.resize(change.at);
   if (bytes.size() < change.at + change.bytes.size()) bytes.resize(change.at + change.bytes.size());
   bytes.replace(change.at, change.bytes.size(), change.bytes);
@@ -236,12 +236,12 @@ sqlite3_vfs& simulated() {
 }  // namespace
 
 void DiskFile::change(Change change) {
-  apply(now, change);
+  make(now, change);
   unsynced.push_back(std::move(change));
 }
 
 void DiskFile::sync() {
-  for (const Change& change : unsynced) apply(durable, change);
+  for (const Change& change : unsynced) make(durable, change);
   unsynced.clear();
 }
 
@@ -250,7 +250,7 @@ void DiskFile::lose(std::mt19937_64& chance) {
     const auto fate = chance() % 4;  // half of all are whole
     if (fate == 0) continue;
     if (fate == 1 && !change.cuts) change.bytes.resize(chance() % (change.bytes.size() + 1));
-    apply(durable, change);
+    make(durable, change);
   }
   unsynced.clear();
   now = durable;
