@@ -66,7 +66,7 @@ class ArtefactJobStore final : public JobStore {
     // What is older than every job that is kept is none's. Where the clock was set, the earlier time holds.
     const auto jobs = store_->list(std::numeric_limits<std::int32_t>::max());
     if (!jobs) return fail(jobs.error());
-    std::int64_t oldest = now;
+    std::int64_t oldest = now - kept.most_age_ms;
     for (const Job& job : *jobs) oldest = std::min(oldest, job.created_ms);
     folder_->forget_before(oldest - kDay_ms);
     return forgotten;

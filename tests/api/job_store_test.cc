@@ -290,7 +290,7 @@ TEST_P(JobStores, AClockThatIsSetFarAheadMakesNoJobTooOldHoweverOften) {
       accept();
       ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer"}, now_).value());
     }
-    EXPECT_EQ(store_->forget_ended(kept, now_).value(), static_cast<int>(3 + 99 - most_age / kDay));
+    EXPECT_EQ(store_->forget_ended(kept, now_).value(), static_cast<int>(3 + 100 - most_age / kDay));
     for (const std::string& id : ids) EXPECT_EQ(store_->get(id).value(), std::nullopt);
     ASSERT_GT(store_->forget_ended({.most = 0}, now_).value(), 0);
   }
