@@ -55,13 +55,14 @@ std::optional<Error> changed_ground(const Service& service, const RecordedReques
   for (const auto& [terrain, version] : request.terrains) {
     const std::string now = version_now(service, terrain);
     if (now == version) continue;
-    faults.push_back({"/terrain", now.empty() ? fmt::format("the terrain {} was removed after this was asked "
-                                                            "for: ask about another one",
-                                                            in_quotes(terrain))
-                                              : fmt::format("the terrain {} was replaced after this was asked "
-                                                            "for, version {} by {}: ask again for an answer "
-                                                            "on what is there now",
-                                                            in_quotes(terrain), version, now)});
+    faults.push_back({"/terrain", now.empty()
+                                      ? fmt::format("the terrain {} was removed after this was asked "
+                                                    "for: ask about another one",
+                                                    in_quotes(terrain))
+                                      : fmt::format("the terrain {} was replaced after this was asked "
+                                                    "for, version {} by {}: ask again for an answer "
+                                                    "on what is there now",
+                                                    in_quotes(terrain), version, now)});
   }
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kConflict, summary_of(faults), faults};
