@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/export/answer_layers.h"
 #include "core/result.h"
 #include "dem/grid_geometry.h"
 #include "dem/vector_file.h"
@@ -31,9 +32,6 @@ enum class VectorCoordinates {
   kLongitudeLatitude,  // degrees of the body, east-positive; planetocentric but on the Earth
 };
 
-// The table of all stations in pages, one after the other, nothing after the last; put together they are one.
-using TablePages = std::function<Result<std::optional<std::string>>()>;
-TablePages in_one_page(std::string table);
 // Takes the bytes of a document that is too long to be held, in their order. An error ends it.
 using ByteSink = std::function<Result<void>(std::string_view)>;
 
