@@ -22,17 +22,21 @@ std::string part_of(const BatchRequest& batch, std::size_t number) {
 Result<BatchRequest> read_batch(const Service& service, std::string_view body) {
   auto reading = json::read_batch_request(body);
   if (!reading) return fail(reading.error());
-  const BatchRequest& batch = reading->request;
+  BatchRequest& batch = reading->request;
   const JobKind* const kind = find_kind(job_kinds(), batch.kind);
   std::vector<Fault> faults = std::move(reading->faults);
   constexpr std::size_t kMaxFaults = 50;
   for (std::size_t k = 0; kind != nullptr && k < batch.requests.size() && faults.size() < kMaxFaults;
        k += batch.seeds) {
-    const auto wrong = kind->fault(service, batch.requests[k]);
-    if (!wrong) continue;
+    const auto terrains = kind->terrains(service, batch.requests[k]);
+    if (terrains) {
+      batch.terrains.insert(batch.terrains.end(), terrains->begin(), terrains->end());
+      continue;
+    }
+    const Error& wrong = terrains.error();
     const std::string place = fmt::format("/requests/{}", k / batch.seeds);
-    if (wrong->faults.empty()) faults.push_back({place, wrong->detail});
-    for (const Fault& fault : wrong->faults) faults.push_back({place + fault.pointer, fault.message});
+    if (wrong.faults.empty()) faults.push_back({place, wrong.detail});
+    for (const Fault& fault : wrong.faults) faults.push_back({place + fault.pointer, fault.message});
   }
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);

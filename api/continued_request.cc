@@ -11,6 +11,7 @@
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
+#include "api/recorded_request.h"
 #include "api/requests/plan_request.h"
 
 namespace slipway::api {
@@ -31,7 +32,7 @@ Result<std::string> request_of(const std::string& id, std::string_view kind, Job
   const auto request = jobs.request(id);
   if (!request) return fail(request.error());
   if (!*request) return refused("the job is no longer kept");
-  return **request;
+  return std::string(taken_apart(**request).body);
 }
 
 // The earlier request with the drives of the new one behind its own, and how many its own are.

@@ -12,6 +12,7 @@
 #include "api/export/station_csv.h"
 #include "api/jobs/job_runner.h"
 #include "api/plan_reference.h"
+#include "api/recorded_request.h"
 #include "api/service.h"
 
 namespace slipway::api {
@@ -44,6 +45,9 @@ struct JobKindRow {
   // The request in a body, or every fault of it together. A body that was accepted is read again when the job
   // runs.
   std::function<Result<Request>(const Service&, std::string_view body)> read;
+  // Makes what is asked for the asker's; empty: the answer is all that is made. Errors: conflict where the
+  // name that it is to have is somebody else's.
+  std::function<Result<void>(const Service&, Request&, const Asker&)> claim = nullptr;
   // The answer. It asks progress.cancelled() at least every 100 ms.
   std::function<Result<Answer>(const Service&, const Request&, Progress&)> run;
   // The answer as a JSON document on one line; of a long drive with some of its stations.
@@ -82,11 +86,12 @@ struct JobKindRow {
 struct JobKind {
   std::string name;
   std::string path;
-  // The request's bytes as they are to be recorded: the body, with the model in it where it names one, or
-  // what it continues. Errors: those of the row's `read`; with a model also invalid_request at /model, with
-  // what it continues at /continues; and storage.
-  std::function<Result<std::string>(const Service&, JobStore&, std::string_view body)> accept;
-  // What is to be kept of the answer to a recorded request.
+  // The request's bytes as they are to be recorded, see RecordedRequest: the body, with the model in it where
+  // it names one, or what it continues. Errors: those of the row's `read` and `claim`; with a model also
+  // invalid_request at /model, with what it continues at /continues; and storage.
+  std::function<Result<std::string>(const Service&, JobStore&, const Asker&, std::string_view body)> accept;
+  // What is to be kept of the answer to a recorded request. Errors: conflict where the ground is another than
+  // when it was asked for, see on_its_ground().
   std::function<Result<JobAnswer>(const Service&, std::string_view recorded, Progress&)> work;
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> map;  // may be empty
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> page =
@@ -94,8 +99,8 @@ struct JobKind {
   bool has_report = false;  // made when it is asked for, where there is `page`, or else kept with the answer
   bool has_raster = false;  // its pieces are the job's series
   bool has_lines = false;   // their pieces are
-  // The first fault of a body that `accept` would refuse, where it names no other job.
-  std::function<std::optional<Error>(const Service&, std::string_view body)> fault = nullptr;
+  // The terrains that a body is about, where it names no other job. Errors: those of `accept`.
+  std::function<Result<std::vector<std::string>>(const Service&, std::string_view body)> terrains = nullptr;
   // May be empty, see JobKindRow.
   std::function<Result<std::vector<std::string>>(const Service&, std::string_view recorded)> split = nullptr;
   std::function<Result<JobAnswer>(const Service&, std::string_view part, Progress&)> part = nullptr;
@@ -125,6 +130,26 @@ Result<JobAnswer> kept_of(const JobKindRow<Request, Answer>& row, const Result<A
   return JobAnswer(std::move(document), *std::move(series));
 }
 
+// Where a request says of which terrains it is.
+template <class Request>
+std::vector<std::string> terrains_of(const Request& request) {
+  if constexpr (requires { request.terrain; })
+    return {request.terrain};
+  else if constexpr (requires { request.terrains; })
+    return request.terrains;
+  else
+    return {};
+}
+
+template <class Request, class Answer>
+Result<Request> read_of(const JobKindRow<Request, Answer>& row, const Service& service, const Asker& asker,
+                        std::string_view body) {
+  auto request = row.read(service, body);
+  if (!request || !row.claim) return request;
+  if (auto claimed = row.claim(service, *request, asker); !claimed) return fail(claimed.error());
+  return request;
+}
+
 template <class Request, class Answer>
 JobKind job_kind(JobKindRow<Request, Answer> of) {
   const auto row = std::make_shared<const JobKindRow<Request, Answer>>(std::move(of));
@@ -135,42 +160,59 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   kind.has_lines = row->lines != nullptr;
   kind.usual_wait = row->usual_wait;
   kind.lane = row->lane;
-  kind.accept = [row](const Service& service, JobStore& store,
+  kind.accept = [row](const Service& service, JobStore& store, const Asker& asker,
                       std::string_view posted) -> Result<std::string> {
     const auto body = row->may_name_plan ? with_plans_route(posted, store) : Result<std::string>(posted);
     if (!body) return body;
     const NamesJob names = row->may_name_model ? NamesJob::kModel
                            : row->may_continue ? NamesJob::kContinued
                                                : NamesJob::kNone;
-    return recorded_request(*body, row->name, store, names,
-                            [&](std::string_view request) -> std::optional<Error> {
-                              const auto read = row->read(service, request);
-                              return read ? std::nullopt : std::optional<Error>(read.error());
-                            });
+    std::vector<std::string> terrains;
+    auto recorded = recorded_request(*body, row->name, store, names,
+                                     [&](std::string_view request) -> std::optional<Error> {
+                                       const auto read = read_of(*row, service, asker, request);
+                                       if (!read) return read.error();
+                                       terrains = terrains_of(*read);
+                                       return std::nullopt;
+                                     });
+    if (recorded) recorded->insert(0, request_head(service, asker, terrains));
+    return recorded;
   };
   kind.work = [row](const Service& service, std::string_view recorded,
                     Progress& progress) -> Result<JobAnswer> {
-    // Read again from the bytes that were accepted: after a restart there is nothing else.
-    const auto request = row->read(service, recorded);
-    if (!request) return fail(request.error());
-    return kept_of(*row, row->run(service, *request, progress));
+    return on_its_ground(service, recorded, [&](const RecordedRequest& kept) -> Result<JobAnswer> {
+      // Read again from the bytes that were accepted: after a restart there is nothing else.
+      const auto request = read_of(*row, service, kept.asker, kept.body);
+      if (!request) return fail(request.error());
+      return kept_of(*row, row->run(service, *request, progress));
+    });
   };
-  kind.fault = [row](const Service& service, std::string_view body) -> std::optional<Error> {
+  kind.terrains = [row](const Service& service, std::string_view body) -> Result<std::vector<std::string>> {
     const auto read = row->read(service, body);
-    return read ? std::nullopt : std::optional<Error>(read.error());
+    if (!read) return fail(read.error());
+    return terrains_of(*read);
   };
   if (!row->split) return kind;
   kind.split = [row](const Service& service, std::string_view recorded) -> Result<std::vector<std::string>> {
-    const auto request = row->read(service, recorded);
+    const RecordedRequest kept = taken_apart(recorded);
+    const auto request = read_of(*row, service, kept.asker, kept.body);
     if (!request) return fail(request.error());
-    return row->split(service, *request, recorded);
+    std::vector<std::string> parts = row->split(service, *request, kept.body);
+    for (std::string& part : parts) part.insert(0, kept.head);
+    return parts;
   };
-  kind.part = row->part;
+  kind.part = [row](const Service& service, std::string_view part, Progress& progress) {
+    return on_its_ground(service, part, [&](const RecordedRequest& kept) -> Result<JobAnswer> {
+      return row->part(service, kept.body, progress);
+    });
+  };
   kind.put_together = [row](const Service& service, std::string_view recorded, const PartAnswer& parts,
                             Progress& progress) -> Result<JobAnswer> {
-    const auto request = row->read(service, recorded);
-    if (!request) return fail(request.error());
-    return kept_of(*row, row->put_together(service, *request, parts, progress));
+    return on_its_ground(service, recorded, [&](const RecordedRequest& kept) -> Result<JobAnswer> {
+      const auto request = read_of(*row, service, kept.asker, kept.body);
+      if (!request) return fail(request.error());
+      return kept_of(*row, row->put_together(service, *request, parts, progress));
+    });
   };
   return kind;
 }

@@ -170,6 +170,10 @@ std::vector<JobKind> all_kinds() {
           .name = "drive_campaign",
           .path = "/v1/drive-campaigns",
           .read = &read_campaign,
+          .claim = [](const Service& /*service*/, CampaignOrder& order, const Asker& asker) -> Result<void> {
+            order.asker = asker;
+            return {};
+          },
           .run =
               [](const Service& service, const CampaignOrder& order, Progress& progress) {
                 return take_campaign(*service.uploads(), order, *service.catalogue(), progress);
@@ -181,6 +185,8 @@ std::vector<JobKind> all_kinds() {
           .name = "terrain",
           .path = "/v1/terrains",
           .read = &read_terrain,
+          .claim = [](const Service& service, TerrainOrder& order,
+                      const Asker& asker) { return claim_terrain(*service.uploads(), order, asker); },
           .run =
               [](const Service& service, const TerrainOrder& order, Progress& progress) {
                 return take_terrain(*service.uploads(), order, *service.catalogue(), progress);

@@ -42,10 +42,8 @@ class Service {
   const ServiceOptions& options() const { return options_; }
   // With the terrains that clients have sent so far.
   std::shared_ptr<const Catalogue> catalogue() const;
-  // Whether a terrain of this name is there that does not ship.
-  bool was_sent(const std::string& terrain) const {
-    return !catalogue_->terrains.contains(terrain) && catalogue()->terrains.contains(terrain);
-  }
+  // Whether the terrain of this name is no client's.
+  bool ships(const std::string& terrain) const { return catalogue_->terrains.contains(terrain); }
   // Where clients' files are; nullptr where none are taken.
   UploadFolder* uploads() const { return options_.uploads.get(); }
   // The drives that ship. A name among them, or of drives that were sent, is all that a request says of where

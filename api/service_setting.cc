@@ -42,7 +42,7 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
 
 // All that the ground under drives of the past depends on but the sol. Empty where a request brings a model
 // of its own, whose numbers its name does not tell.
-std::string conditions_of(const std::string& terrain, const std::string& rover, DriveAssumptions drive,
+std::string conditions_of(const TerrainSite& terrain, const std::string& rover, DriveAssumptions drive,
                           int draws) {
   if (drive.model) return {};
   drive.as_of_sol.reset();
@@ -50,7 +50,8 @@ std::string conditions_of(const std::string& terrain, const std::string& rover, 
   drive.departure.reset();
   drive.draws = draws;
   json::Writer w;
-  w.begin_object().text("terrain", terrain).text("rover", rover);
+  w.begin_object().text("terrain", terrain.description().name).text("version", terrain.version());
+  w.text("rover", rover);
   json::write_drive_assumptions(w, drive);
   w.end_object();
   return w.take();
@@ -73,6 +74,7 @@ sim::SoilBeliefs beliefs_of(const Catalogue& catalogue, const DriveAssumptions& 
 Provenance provenance_of(const TerrainSite& site, const Legend& legend, const planner::PlanProblem& problem,
                          std::uint64_t seed) {
   Provenance provenance{.terrain_title = site.description().title,
+                        .terrain_version = site.version(),
                         .terrain_fingerprint = problem.terrain->fingerprint(),
                         .crs_name = site.info().crs_name,
                         .body = site.info().body,
@@ -214,7 +216,7 @@ Result<DriveSetting> set_up(const Service& service, const std::string& terrain, 
     past.risk.draws = drive.draws.value_or(kWeighedDraws);
     const auto wanted = static_cast<std::size_t>(drive.draws.value_or(planner::kMostDraws));
     auto evidence =
-        service.conditioned_ground().get(conditions_of(terrain, driven_name, drive, past.risk.draws), past,
+        service.conditioned_ground().get(conditions_of(site, driven_name, drive, past.risk.draws), past,
                                          {site.outcomes(), site.steps()}, *drive.as_of_sol, wanted, progress);
     if (!evidence) return fail(evidence.error());
     problem.risk.conditioned = evidence->draws;

@@ -90,11 +90,9 @@ Result<TerrainOrder> read_terrain(const Service& service, std::string_view bytes
     check_upload(*service.uploads(), order.elevation, "/elevation", faults);
     check_upload(*service.uploads(), order.soil, "/soil", faults);
     check_upload(*service.uploads(), order.legend, "/legend", faults);
-    // One that was made of this map is no stranger: a worker that died may have to make it again.
-    const auto known = read_origin(service.uploads()->terrains() / import.name);
-    if (!has_fault_under(faults, "/name") && service.catalogue()->terrains.contains(import.name) &&
-        (!known || known->from != order.elevation))
-      faults.push_back({"/name", fmt::format("there is a terrain {} already", in_quotes(import.name))});
+    if (!has_fault_under(faults, "/name") && service.ships(import.name))
+      faults.push_back({"/name", fmt::format("{} is the name of a terrain that ships with the service",
+                                             in_quotes(import.name))});
   }
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return order;

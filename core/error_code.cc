@@ -63,7 +63,7 @@ constexpr std::array kRows{
              "The disk of the job store is full; nothing was accepted. Free space on it, or keep fewer ended "
              "jobs."},
     ErrorRow{ErrorCode::kDamagedStore, "damaged_store", 500,
-             "What is stored of this job was altered or can't be read; send the request again."},
+             "What is stored was altered or can't be read; the detail says what to do."},
     ErrorRow{ErrorCode::kUnwritableFile, "unwritable_file", 500,
              "A file that was asked for could not be written; its folder must exist and be writable."},
     ErrorRow{ErrorCode::kInternal, "internal", 500,

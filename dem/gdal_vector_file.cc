@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "dem/gdal_memory_file.h"
 #include "dem/gdal_session.h"
@@ -47,7 +48,22 @@ bool write_feature(OGRLayer& out, const VectorLayer& layer, const VectorFeature&
   return out.CreateFeature(&made) == OGRERR_NONE;
 }
 
-bool write_layer(GDALDataset& file, const VectorLayer& layer, OGRSpatialReference* crs) {
+// Where it ends early, `why` says so, or else GDAL does.
+bool write_features(OGRLayer& out, const VectorLayer& layer, std::optional<Error>& why) {
+  for (const VectorFeature& feature : layer.features)
+    if (!write_feature(out, layer, feature)) return false;
+  while (layer.more) {
+    const auto some = layer.more();
+    if (!some) why = some.error();
+    if (!some || some->empty()) return some.has_value();
+    for (const VectorFeature& feature : *some)
+      if (!write_feature(out, layer, feature)) return false;
+  }
+  return true;
+}
+
+bool write_layer(GDALDataset& file, const VectorLayer& layer, OGRSpatialReference* crs,
+                 std::optional<Error>& why) {
   OGRLayer* const out =
       file.CreateLayer(layer.name.c_str(), crs, layer.lines ? wkbLineString25D : wkbPoint25D, nullptr);
   if (out == nullptr) return false;
@@ -55,9 +71,7 @@ bool write_layer(GDALDataset& file, const VectorLayer& layer, OGRSpatialReferenc
     OGRFieldDefn definition(field.name.c_str(), field.is_text ? OFTString : OFTReal);
     if (out->CreateField(&definition) != OGRERR_NONE) return false;
   }
-  for (const VectorFeature& feature : layer.features)
-    if (!write_feature(*out, layer, feature)) return false;
-  return true;
+  return write_features(*out, layer, why);
 }
 
 // The table from which QGIS takes styles. Its columns are QGIS's own.
@@ -98,10 +112,11 @@ bool write_styles(GDALDataset& file, const std::vector<VectorLayer>& layers) {
   return true;
 }
 
-bool write_layers(GDALDataset& file, const std::vector<VectorLayer>& layers, OGRSpatialReference* crs) {
+bool write_layers(GDALDataset& file, const std::vector<VectorLayer>& layers, OGRSpatialReference* crs,
+                  std::optional<Error>& why) {
   if (file.StartTransaction() != OGRERR_NONE) return false;
   for (const VectorLayer& layer : layers)
-    if (!write_layer(file, layer, crs)) return false;
+    if (!write_layer(file, layer, crs, why)) return false;
   const bool styled = std::any_of(layers.begin(), layers.end(),
                                   [](const VectorLayer& layer) { return !layer.style_qml.empty(); });
   if (styled && !write_styles(file, layers)) return false;
@@ -113,10 +128,9 @@ void register_geopackage() {
   std::call_once(once, &RegisterOGRGeoPackage);
 }
 
-}  // namespace
-
-Result<std::string> encode_geopackage(const std::vector<VectorLayer>& layers, const std::string& crs_wkt) {
-  const GdalSession session;
+// Where the session admits the file.
+Result<void> write_file(const GdalSession& session, const std::string& path,
+                        const std::vector<VectorLayer>& layers, const std::string& crs_wkt) {
   register_geopackage();
   const FixedDate date;
   std::unique_ptr<OGRSpatialReference> crs;
@@ -124,15 +138,32 @@ Result<std::string> encode_geopackage(const std::vector<VectorLayer>& layers, co
     crs = std::make_unique<OGRSpatialReference>();
     if (crs->importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) crs.reset();
   }
-  GdalMemoryFile memory(".gpkg");
-  GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GPKG")->Create(
-      memory.name().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  const bool complete = file && write_layers(*file, layers, crs.get());
+  GDALDatasetUniquePtr file(
+      GetGDALDriverManager()->GetDriverByName("GPKG")->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  std::optional<Error> why;
+  const bool complete = file && write_layers(*file, layers, crs.get(), why);
+  CPLErrorReset();
   file.reset();  // closing writes what is left
-  auto bytes = memory.take();
-  if (complete && bytes) return *std::move(bytes);
+  if (why) return fail(*std::move(why));
+  if (complete && CPLGetLastErrorType() < CE_Failure) return {};
   return fail(ErrorCode::kInternal,
               fmt::format("The GeoPackage could not be encoded: {}", session.complaints()));
+}
+
+}  // namespace
+
+Result<void> write_geopackage(const std::string& path, const std::vector<VectorLayer>& layers,
+                              const std::string& crs_wkt) {
+  return write_file(GdalSession(path), path, layers, crs_wkt);
+}
+
+Result<std::string> encode_geopackage(const std::vector<VectorLayer>& layers, const std::string& crs_wkt) {
+  GdalMemoryFile memory(".gpkg");
+  const auto written = write_file(GdalSession(), memory.name(), layers, crs_wkt);
+  auto bytes = memory.take();
+  if (!written) return fail(written.error());
+  if (!bytes) return fail(ErrorCode::kInternal, "The GeoPackage has no bytes.");
+  return *std::move(bytes);
 }
 
 }  // namespace slipway::dem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,10 +30,16 @@ struct VectorLayer {
   std::vector<VectorField> fields;
   std::vector<VectorFeature> features;
   std::string style_qml = {};  // as QGIS takes it from a GeoPackage by itself; empty: none
+  // Of a layer that is too long to be held: its features behind those above, some at a time, none after the
+  // last. Empty: there are no more.
+  std::function<Result<std::vector<VectorFeature>>()> more = nullptr;
 };
 
-// A GeoPackage's bytes. crs_wkt: of the map; empty: a local frame. The same layers give the same bytes.
-// Errors: internal, with GDAL's reasons.
+// Writes a GeoPackage where there is no file yet. crs_wkt: of the map; empty: a local frame. The same layers
+// give the same bytes. Errors: internal, with GDAL's reasons; those of a layer's `more`.
+Result<void> write_geopackage(const std::string& path, const std::vector<VectorLayer>& layers,
+                              const std::string& crs_wkt);
+// The same in memory.
 Result<std::string> encode_geopackage(const std::vector<VectorLayer>& layers, const std::string& crs_wkt);
 
 }  // namespace slipway::dem

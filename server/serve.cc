@@ -67,22 +67,6 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
   return workers;
 }
 
-// A clock that was set far ahead makes every ended job too old to be kept: where the last job is that old,
-// none is forgotten for its age until the next start. Who reads the log has that long to set the clock right.
-void distrust_clock(api::JobStore& store, api::Retention& kept) {
-  constexpr std::int64_t kMsPerDay = std::int64_t{24} * 3600 * 1000, kLongest_ms = 30 * kMsPerDay;
-  const auto last = store.list(1);
-  if (!last || last->empty()) return;
-  const std::int64_t since = now_ms() - last->front().created_ms;
-  if (since <= kLongest_ms) return;
-  kept.most_age_ms = 1000 * 365 * kMsPerDay;
-  log_event(LogLevel::kWarning, "clock_far_ahead",
-            {{"days_since_last_job", static_cast<double>(since / kMsPerDay)},
-             {"remedy",
-              "no job is forgotten for its age until the next start: set the clock right before it, "
-              "where it is wrong"}});
-}
-
 Result<Jobs> open_jobs(const ServeOptions& options) {
   const std::string& path = options.jobs;
   Jobs jobs;
@@ -103,7 +87,6 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   auto store = open_store(path, options.artefacts, api::StoreCheck::kWhole);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
-  distrust_clock(*jobs.store, *jobs.runner.kept);
   if (path.empty()) return jobs;
   // A process takes back at its start what one of its name left running when it died. One name for all would
   // take the jobs of a service that lives: only the holder of the lock works under the shared name.
@@ -201,14 +184,16 @@ void log_answer(const AnsweredRequest& answered) {
              {"seconds", answered.seconds}});
 }
 
+// Where a file lies; empty where there is none, or a database in its place.
+std::string folder_of(const std::string& file) {
+  if (file.empty() || api::is_database(file)) return {};
+  const auto folder = std::filesystem::path(file).parent_path();
+  return folder.empty() ? std::string(".") : folder.string();
+}
+
 // What the service needs to take work. The store and the workers must outlive the checks.
 std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::JobStore& store,
                                              const std::optional<WorkerProcesses>& workers) {
-  const auto folder_of = [](const std::string& file) {
-    if (file.empty() || api::is_database(file)) return std::string();
-    const auto folder = std::filesystem::path(file).parent_path();
-    return folder.empty() ? std::string(".") : folder.string();
-  };
   return {[&store]() -> std::optional<std::string> {
             const auto read = store.list(1);
             return read ? std::nullopt
@@ -296,12 +281,15 @@ int serve(const ServeOptions& given) {
           workers->ring();
         });
     runner.on_change([&] { workers->ring(); });
+    runner.on_shortage([&] { return workers->shortage(); });
   }
   if (const auto started = runner.start(); !started) return refuse(started.error());
   if (workers)
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
-  std::vector<Route> routes = api_routes(**service, runner, {.override_persons = options.override_persons});
+  RouteOptions of_routes{.override_persons = options.override_persons};
+  if (const std::string folder = folder_of(options.jobs); !folder.empty()) of_routes.drawing_folder = folder;
+  std::vector<Route> routes = api_routes(**service, runner, of_routes);
   const Readiness readiness(readiness_checks(options, *jobs->store, workers));
   const Operation operation{.metrics = metrics,
                             .store = *jobs->store,

@@ -95,6 +95,7 @@ void write_terrain(Writer& w, const TerrainSite& site) {
   const TerrainDescription& terrain = site.description();
   const dem::ElevationInfo& info = site.info();
   w.begin_object().text("name", terrain.name).text("title", terrain.title);
+  w.text("version", site.version());
   write_extent(w, info.geometry.extent());
   w.exact("cell_x_m", info.geometry.cell_x_m).exact("cell_y_m", info.geometry.cell_y_m);
   w.whole("rows", info.geometry.rows).whole("columns", info.geometry.columns);

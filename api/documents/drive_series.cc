@@ -257,7 +257,8 @@ void write_line(Writer& w, const sim::DrivePrediction& prediction, const std::ve
 
 void write_provenance(Writer& w, const Provenance& p) {
   w.key("provenance").begin_object().text("slipway", version()).text("fidelity", "quasi_static");
-  w.text("terrain_title", p.terrain_title).text("terrain_fingerprint", p.terrain_fingerprint);
+  w.text("terrain_title", p.terrain_title).text("terrain_version", p.terrain_version);
+  w.text("terrain_fingerprint", p.terrain_fingerprint);
   w.text("crs_name", p.crs_name).text("body", p.body).exact("gravity_m_s2", p.gravity_m_s2);
   w.texts("soils", p.soils).text("unknown_soil", p.unknown_soil).text("legend", p.legend);
   w.text("soil_assumption", p.soil_assumption);

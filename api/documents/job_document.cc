@@ -37,6 +37,7 @@ std::string write_job(const Job& job, const std::optional<std::string>& problem,
   if (queue) {
     w.key("queue").begin_object().whole("ahead", queue->ahead);
     if (queue->wait_s) w.significant("estimated_wait_s", *queue->wait_s);
+    if (queue->shortage) w.text("shortage", *queue->shortage);
     w.end_object();
   }
   if (job.state == JobState::kFailed && problem) w.key("problem").raw(*problem);

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
-#include "api/chart/vector_styles.h"
-#include "api/export/station_csv.h"
 #include "api/json/faults.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
-#include "core/csv_cells.h"
 #include "dem/body_degrees.h"
 #include "dem/vector_file.h"
 
@@ -23,199 +21,21 @@ namespace slipway::api::json {
 namespace {
 
 using dem::VectorFeature;
-using dem::VectorField;
 using dem::VectorLayer;
-using dem::VectorValue;
 
 Result<JsonValue> read_answer_document(std::string_view document) {
   return parse(document, {.bytes = document.size(), .values = document.size()});
 }
 
-// The place of a field, which is added where the layer has none of this name.
-std::size_t field_of(VectorLayer& layer, std::string_view name, bool is_text) {
-  for (std::size_t i = 0; i < layer.fields.size(); ++i)
-    if (layer.fields[i].name == name) return i;
-  layer.fields.push_back({std::string(name), is_text});
-  return layer.fields.size() - 1;
-}
-
-void set(VectorLayer& layer, VectorFeature& feature, std::string_view name, VectorValue value) {
-  const std::size_t place = field_of(layer, name, std::holds_alternative<std::string>(value));
-  feature.values.resize(std::max(feature.values.size(), layer.fields.size()));
-  if (layer.fields[place].is_text == std::holds_alternative<std::string>(value))
-    feature.values[place] = std::move(value);
-}
-
-// Members that are one number, text or truth; "value" of an object that has one.
-void set_scalars(VectorLayer& layer, VectorFeature& feature, const JsonValue& object) {
-  for (std::size_t i = 0; i < object.keys.size(); ++i) {
-    const std::string& name = object.keys[i];
-    const JsonValue& member = object.elements[i];
-    const JsonValue* const inner = member.is(JsonValue::Kind::kObject) ? member.find("value") : nullptr;
-    const JsonValue& value = inner != nullptr ? *inner : member;
-    if (value.is(JsonValue::Kind::kNumber)) set(layer, feature, name, value.number);
-    if (value.is(JsonValue::Kind::kString)) set(layer, feature, name, value.text);
-    if (value.is(JsonValue::Kind::kBoolean)) set(layer, feature, name, value.boolean ? 1.0 : 0.0);
-  }
-}
-
-// The verdict on a route: its own, of a plan's summary, or that of the whole answer.
-std::string verdict_of(const JsonValue& document, const JsonValue& feature) {
-  const JsonValue& own = at(at(feature, "properties"), "decision");
-  if (has(own, "verdict")) return text(own, "verdict");
-  if (has(document, "verdict")) return text(document, "verdict");
-  return text(at(document, "decision"), "verdict");
-}
-
-VectorLayer route_layer(const JsonValue& document) {
-  VectorLayer layer{.name = "routes", .lines = true, .fields = {}, .features = {}};
-  for (const JsonValue& feature : at(at(document, "routes"), "features").elements) {
-    VectorFeature& made = layer.features.emplace_back();
-    for (const JsonValue& point : at(at(feature, "geometry"), "coordinates").elements)
-      made.points.push_back({point.elements.at(0).number, point.elements.at(1).number,
-                             point.elements.size() > 2 ? point.elements[2].number : 0.0});
-    set(layer, made, "route", number(feature, "id"));
-    set(layer, made, "verdict", verdict_of(document, feature));
-    set(layer, made, "rover", text(document, "rover"));
-    set(layer, made, "terrain", text(document, "terrain"));
-    set_scalars(layer, made, at(feature, "properties"));
-  }
-  for (VectorFeature& made : layer.features) made.values.resize(layer.fields.size());
-  return layer;
-}
-
-// From the table of stations, whose columns have their units in their names.
-VectorLayer station_layer(std::string_view csv) {
-  VectorLayer layer{.name = "stations", .lines = false, .fields = {}, .features = {}};
-  const std::vector<CsvLine> lines = csv_lines(csv);
-  const auto names = csv_cells(lines.front().text);
-  for (const std::string_view name : names)
-    layer.fields.push_back({std::string(name), name == "soil" || name == "on_unknown_ground"});
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const auto cells = csv_cells(lines[i].text);
-    VectorFeature& made = layer.features.emplace_back();
-    made.points.push_back({0.0, 0.0, 0.0});
-    made.values.resize(names.size());
-    for (std::size_t k = 0; k < names.size() && k < cells.size(); ++k) {
-      const auto number = csv_number(cells[k]);
-      if (layer.fields[k].is_text && !cells[k].empty()) made.values[k] = std::string(cells[k]);
-      if (!layer.fields[k].is_text && number) made.values[k] = *number;
-      if (number && names[k] == "x_m") made.points[0][0] = *number;
-      if (number && names[k] == "y_m") made.points[0][1] = *number;
-      if (number && names[k] == "height_m") made.points[0][2] = *number;
-    }
-  }
-  return layer;
-}
-
-// Places along a route by the distance driven, linear between its stations.
-class AlongRoute {
- public:
-  explicit AlongRoute(const JsonValue& stations) {
-    const JsonValue &distance = at(stations, "distance_m"), &x = at(stations, "x_m"),
-                    &y = at(stations, "y_m"), &height = at(stations, "height_m");
-    for (std::size_t i = 0; i < distance.elements.size(); ++i) {
-      distances_.push_back(distance.elements[i].number);
-      points_.push_back({x.elements.at(i).number, y.elements.at(i).number, height.elements.at(i).number});
-    }
-  }
-
-  double length_m() const { return distances_.empty() ? 0.0 : distances_.back(); }
-  std::array<double, 3> at_m(double distance_m) const {
-    const auto after = std::lower_bound(distances_.begin(), distances_.end(), distance_m);
-    if (after == distances_.begin()) return points_.front();
-    if (after == distances_.end()) return points_.back();
-    const auto i = static_cast<std::size_t>(after - distances_.begin());
-    const double step = distances_[i] - distances_[i - 1];
-    const double t = step > 0.0 ? (distance_m - distances_[i - 1]) / step : 0.0;
-    std::array<double, 3> place{};
-    for (std::size_t k = 0; k < 3; ++k)
-      place[k] = points_[i - 1][k] + t * (points_[i][k] - points_[i - 1][k]);
-    return place;
-  }
-  std::vector<std::array<double, 3>> between(double from_m, double to_m) const {
-    std::vector<std::array<double, 3>> line{at_m(from_m)};
-    for (std::size_t i = 0; i < distances_.size(); ++i)
-      if (distances_[i] > from_m && distances_[i] < to_m) line.push_back(points_[i]);
-    line.push_back(at_m(std::max(to_m, from_m)));
-    return line;
-  }
-
- private:
-  std::vector<double> distances_;
-  std::vector<std::array<double, 3>> points_;
-};
-
-// Each rule, on the stretch where it trips.
-VectorLayer rule_layer(const JsonValue& rules, const AlongRoute& along) {
-  VectorLayer layer{.name = "rules", .lines = true, .fields = {}, .features = {}};
-  for (const JsonValue& rule : rules.elements) {
-    VectorFeature& made = layer.features.emplace_back();
-    if (has(rule, "from_m") && at(rule, "from_m").is(JsonValue::Kind::kNumber))
-      made.points = along.between(number(rule, "from_m"), number(rule, "to_m"));
-    set_scalars(layer, made, rule);
-    const JsonValue& value = at(rule, "value");
-    for (const char* const quantile : {"p05", "p50", "p95"})
-      if (has(value, quantile)) set(layer, made, fmt::format("value_{}", quantile), number(value, quantile));
-    const JsonValue& trips = at(rule, "trips");
-    set(layer, made, "trips_low", number(trips, "low"));
-    set(layer, made, "trips_high", number(trips, "high"));
-  }
-  for (VectorFeature& made : layer.features) made.values.resize(layer.fields.size());
-  return layer;
-}
-
-// Where the slip is checked on the way, and where a check is recommended.
-VectorLayer check_layer(const JsonValue& document, const AlongRoute& along) {
-  VectorLayer layer{.name = "checks", .lines = false, .fields = {}, .features = {}};
-  const auto add = [&](double distance_m, const char* why) {
-    VectorFeature& made = layer.features.emplace_back();
-    made.points.push_back(along.at_m(distance_m));
-    set(layer, made, "distance_m", distance_m);
-    set(layer, made, "why", std::string(why));
-  };
-  const JsonValue& checks = at(at(document, "request"), "checks");
-  const double every_m = has(checks, "slip_check_every_m") ? number(checks, "slip_check_every_m") : 0.0;
-  constexpr double kMostChecks = 100'000.0;
-  if (every_m > 0.0 && along.length_m() / every_m < kMostChecks)
-    for (int i = 1; i * every_m <= along.length_m(); ++i) add(i * every_m, "interval");
-  const JsonValue& recommended = at(at(document, "outcomes"), "recommended");
-  if (has(recommended, "slip_checks_before_m"))
-    for (const JsonValue& place : at(recommended, "slip_checks_before_m").elements)
-      add(place.number, "recommended");
-  return layer;
-}
-
-Result<std::vector<VectorLayer>> layers_of(std::string_view answer, std::string_view stations) {
-  const auto document = read_answer_document(answer);
-  if (!document) return fail(document.error());
-  auto csv = stations.empty() ? station_csv(answer) : Result<std::string>(stations);
-  if (!csv) return fail(csv.error());
-  std::vector<VectorLayer> layers{route_layer(*document), station_layer(*csv)};
-  layers[0].style_qml = route_style();
-  layers[1].style_qml = station_style();
-  const auto& routes = at(at(*document, "routes"), "features").elements;
-  if (!has(*document, "outcomes") || routes.empty()) return layers;
-  const AlongRoute along(at(at(routes.front(), "properties"), "stations"));
-  if (along.length_m() <= 0.0) return layers;
-  layers.push_back(rule_layer(at(at(*document, "outcomes"), "rules"), along));
-  layers.back().style_qml = rule_style();
-  layers.push_back(check_layer(*document, along));
-  return layers;
-}
-
 // Turns every point to degrees. Errors: unsupported_crs.
-Result<void> turn_to_degrees(std::vector<VectorLayer>& layers, const AnswerMap& map) {
-  const dem::BodyDegrees degrees(map.crs_wkt, map.body, map.extent);
-  for (VectorLayer& layer : layers) {
-    for (VectorFeature& feature : layer.features) {
-      for (auto& point : feature.points) {
-        const auto place = degrees.to_degrees({point[0], point[1]});
-        if (!place)
-          return fail(ErrorCode::kUnsupportedCrs,
-                      "This terrain's map has no longitude and latitude: it lies on no body.");
-        point = {place->x, place->y, point[2]};
-      }
+Result<void> turn_to_degrees(std::vector<VectorFeature>& features, const dem::BodyDegrees& degrees) {
+  for (VectorFeature& feature : features) {
+    for (auto& point : feature.points) {
+      const auto place = degrees.to_degrees({point[0], point[1]});
+      if (!place)
+        return fail(ErrorCode::kUnsupportedCrs,
+                    "This terrain's map has no longitude and latitude: it lies on no body.");
+      point = {place->x, place->y, point[2]};
     }
   }
   return {};
@@ -267,8 +87,9 @@ std::string feature_name(const VectorLayer& layer) {
   return layer.name.ends_with('s') ? layer.name.substr(0, layer.name.size() - 1) : layer.name;
 }
 
-void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coordinates) {
-  for (const VectorFeature& feature : layer.features) {
+void write_features(Writer& w, const VectorLayer& layer, const std::vector<VectorFeature>& features,
+                    VectorCoordinates coordinates) {
+  for (const VectorFeature& feature : features) {
     if (feature.points.empty() && layer.name == "rules") continue;  // trips nowhere
     w.begin_object().text("type", "Feature");
     write_geometry(w, layer, feature, coordinates);
@@ -281,6 +102,47 @@ void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coord
     }
     w.end_object().end_object();
   }
+}
+
+Result<void> write_layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
+                                  VectorCoordinates coordinates, const ByteSink& out) {
+  const bool in_degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
+  const dem::BodyDegrees degrees(map.crs_wkt, map.body, map.extent);
+  Writer w;
+  const auto write = [&](const VectorLayer& layer, std::vector<VectorFeature>& features) -> Result<void> {
+    if (in_degrees)
+      if (auto turned = turn_to_degrees(features, degrees); !turned) return turned;
+    write_features(w, layer, features, coordinates);
+    return out(w.take());
+  };
+  w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
+  w.text("body", map.body);
+  if (const std::string name = in_degrees ? degrees_name(map) : map.crs_wkt; !name.empty()) {
+    w.key("crs").begin_object().text("type", "name");
+    w.key("properties").begin_object().text("name", name).end_object().end_object();
+  }
+  w.key("features").begin_array();
+  for (VectorLayer& layer : layers) {
+    if (auto written = write(layer, layer.features); !written) return written;
+    while (layer.more) {
+      auto some = layer.more();
+      if (!some) return fail(some.error());
+      if (some->empty()) break;
+      if (auto written = write(layer, *some); !written) return written;
+    }
+  }
+  w.end_array().end_object();
+  return out(w.take() + "\n");
+}
+
+Result<std::string> in_memory(const std::function<Result<void>(const ByteSink&)>& write) {
+  std::string all;
+  const auto written = write([&](std::string_view bytes) -> Result<void> {
+    all += bytes;
+    return {};
+  });
+  if (!written) return fail(written.error());
+  return all;
 }
 
 dem::Extent extent_of(const JsonValue& site) {
@@ -306,36 +168,37 @@ std::string terrain_of_answer(std::string_view answer) {
   return document ? text(*document, "terrain") : std::string();
 }
 
-Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
-                                   VectorCoordinates coordinates, std::string_view stations) {
-  auto layers = layers_of(answer, stations);
+Result<void> write_answer_geojson(std::string_view answer, const AnswerMap& map,
+                                  VectorCoordinates coordinates, TablePages stations, const ByteSink& out) {
+  auto layers = answer_layers(answer, std::move(stations));
   if (!layers) return fail(layers.error());
-  return layers_geojson(*std::move(layers), map, coordinates);
+  return write_layers_geojson(*std::move(layers), map, coordinates, out);
+}
+
+Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
+                                   VectorCoordinates coordinates, TablePages stations) {
+  return in_memory([&](const ByteSink& out) {
+    return write_answer_geojson(answer, map, coordinates, std::move(stations), out);
+  });
 }
 
 Result<std::string> layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
                                    VectorCoordinates coordinates) {
-  const bool degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
-  if (degrees)
-    if (const auto turned = turn_to_degrees(layers, map); !turned) return fail(turned.error());
-  Writer w;
-  w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
-  w.text("body", map.body);
-  if (const std::string name = degrees ? degrees_name(map) : map.crs_wkt; !name.empty()) {
-    w.key("crs").begin_object().text("type", "name");
-    w.key("properties").begin_object().text("name", name).end_object().end_object();
-  }
-  w.key("features").begin_array();
-  for (const VectorLayer& layer : layers) write_features(w, layer, coordinates);
-  w.end_array().end_object();
-  return w.take() + "\n";
+  return in_memory(
+      [&](const ByteSink& out) { return write_layers_geojson(std::move(layers), map, coordinates, out); });
 }
 
-Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map,
-                                      std::string_view stations) {
-  const auto layers = layers_of(answer, stations);
+Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map, TablePages stations) {
+  const auto layers = answer_layers(answer, std::move(stations));
   if (!layers) return fail(layers.error());
   return dem::encode_geopackage(*layers, map.crs_wkt);
+}
+
+Result<void> write_answer_geopackage(std::string_view answer, const AnswerMap& map, TablePages stations,
+                                     const std::string& path) {
+  const auto layers = answer_layers(answer, std::move(stations));
+  if (!layers) return fail(layers.error());
+  return dem::write_geopackage(path, *layers, map.crs_wkt);
 }
 
 }  // namespace slipway::api::json

@@ -51,6 +51,10 @@ void check_legend_soils(const std::vector<dem::SoilClass>& legend, const Catalog
       faults.push_back({fmt::format("{}, label {}", file, row.label), unknown_soil(catalogue, *row.soil)});
 }
 
+bool may_replace(const TerrainImport& order, const fs::path& there) {
+  return order.may_replace && order.may_replace(there);
+}
+
 // What is wrong with the order before a map is opened, and its legend.
 Result<LegendTable> check_order(const TerrainImport& order, const std::string& name,
                                 const Catalogue& catalogue) {
@@ -60,7 +64,8 @@ Result<LegendTable> check_order(const TerrainImport& order, const std::string& n
   if (!is_name(name))
     faults.push_back(
         {"--name", fmt::format("name = {}, must be 1 to 64 of a-z, 0-9, _ and -", in_quotes(name))});
-  else if (!order.replace && fs::exists(order.data / "terrains" / name, ignored))
+  else if (const fs::path there = order.data / "terrains" / name;
+           fs::exists(there, ignored) && !may_replace(order, there))
     faults.push_back(
         {"--name",
          fmt::format("there is a terrain {} already: give another --name, or --replace", in_quotes(name))});
@@ -169,14 +174,17 @@ Result<std::string> make_folder_of(const TerrainImport& order, ImportedTerrain m
   return import_text(made) + '\0' + import_document(made);
 }
 
-// Puts the finished folder in its place; what was there is removed afterwards.
-Result<void> put_in_place(const WorkingFolder& working, const fs::path& folder, const fs::path& aside,
-                          bool replace) {
+// Puts the finished folder in its place; what was there is removed afterwards. Whether it may be is asked of
+// what was put aside: another process may have changed it since the order was checked.
+Result<void> put_in_place(const TerrainImport& order, const WorkingFolder& working, const fs::path& folder,
+                          const fs::path& aside) {
   std::error_code error;
   const bool replaced = fs::exists(folder, error);
-  if (replaced && !replace)
-    return fail(ErrorCode::kInvalidRequest, "A terrain of this name was made meanwhile.");
   if (replaced) fs::rename(folder, aside, error);
+  if (!error && replaced && !may_replace(order, aside)) {
+    fs::rename(aside, folder, error);
+    return fail(ErrorCode::kConflict, "A terrain of this name was made meanwhile: choose another name.");
+  }
   if (!error) fs::rename(working.path(), folder, error);
   if (error) {
     const std::string why = error.message();
@@ -210,7 +218,7 @@ Result<TerrainImportReport> import_terrain(const TerrainImport& order, const Cat
   TerrainImportReport report;
   report.folder = terrains / made.name;
   const fs::path aside = unfinished_name(terrains / made.name);
-  if (const auto placed = put_in_place(working, report.folder, aside, order.replace); !placed)
+  if (const auto placed = put_in_place(order, working, report.folder, aside); !placed)
     return fail(placed.error());
   report.text = told->substr(0, told->find('\0'));
   report.json = told->substr(told->find('\0') + 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,8 @@ struct TerrainImport {
   std::optional<double> nodata;        // also marks a missing height
   bool fix = false;                    // mends what can be mended
   bool strict = false;                 // refuses what would be warned of
-  bool replace = false;                // of a terrain of this name
+  // Whether the folder of a terrain of this name may be replaced; empty: none may.
+  std::function<bool(const std::filesystem::path& there)> may_replace = nullptr;
   ChildLimits limits = {};
   std::string origin = {};  // bytes of upload.json in the terrain's folder; empty: there is no such file
 };
@@ -46,7 +48,8 @@ struct TerrainImportReport {
 // maps are read in a child process with limits (see run_confined()), in a folder beside the others whose name
 // hides it, and which takes its place when all of it is written and its maps have been read back. Whatever
 // ends the work, nothing of it is left behind. Errors: invalid_request with all faults of the order and of
-// the legend together; those of dem::import_elevation(), dem::import_soil() and run_confined().
+// the legend together; conflict where a terrain that may not be replaced was made meanwhile; those of
+// dem::import_elevation(), dem::import_soil() and run_confined().
 Result<TerrainImportReport> import_terrain(const TerrainImport& order, const Catalogue& catalogue,
                                            Progress& progress);
 

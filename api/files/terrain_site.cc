@@ -140,7 +140,27 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
     }
   }
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
+  auto version = site->version_of_files();
+  if (!version) return fail(version.error());
+  site->version_ = *std::move(version);
   return std::shared_ptr<const TerrainSite>(std::move(site));
+}
+
+Result<std::string> TerrainSite::version_of_files() const {
+  constexpr std::uintmax_t kReadThrough = std::uintmax_t{4} << 20U;
+  constexpr std::size_t kDigits = 16;
+  Sha256 hash;
+  for (const std::string& name : file_names()) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(folder_ / name, error);
+    if (error) return fail(ErrorCode::kUnreadableData, fmt::format("{}: {}", name, error.message()));
+    hash.add(fmt::format("{} {}\n", size, name));
+    if (size > kReadThrough) continue;
+    const auto bytes = read_data_file(folder_ / name);
+    if (!bytes) return fail(bytes.error());
+    hash.add(*bytes);
+  }
+  return hash.digest().substr(0, kDigits);
 }
 
 Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& legend) const {
@@ -214,15 +234,19 @@ Result<std::optional<std::string>> TerrainSite::text_of(const std::optional<std:
   return *std::move(text);
 }
 
-Result<std::vector<TerrainFile>> TerrainSite::files() const {
+std::vector<std::string> TerrainSite::file_names() const {
   std::vector<std::string> names{"terrain.json", description_.elevation_file};
   if (description_.soil_source != SoilSource::kNone) names.push_back(description_.soil_file);
   for (const auto& file : {description_.stops_file, description_.outcomes_file, description_.steps_file,
                            description_.provenance_file})
     if (file) names.push_back(*file);
   if (is_plain_file(folder_ / kLicenceFile)) names.emplace_back(kLicenceFile);
+  return names;
+}
+
+Result<std::vector<TerrainFile>> TerrainSite::files() const {
   std::vector<TerrainFile> files;
-  for (const std::string& name : names) {
+  for (const std::string& name : file_names()) {
     auto file = read_through(folder_ / name);
     if (!file) return fail(file.error());
     files.push_back(*std::move(file));

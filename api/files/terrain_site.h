@@ -41,6 +41,10 @@ class TerrainSite {
   static Result<std::shared_ptr<const TerrainSite>> open(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
+  // 16 hexadecimal digits: another terrain of this name has another one, and the same files have the same on
+  // every machine. Of the bytes of its files, but of one above 4 MB of its size alone: what was imported says
+  // in its provenance which bytes that one is made of.
+  const std::string& version() const { return version_; }
   const TerrainDescription& description() const { return description_; }
   const dem::ElevationInfo& info() const { return elevation_->info(); }
   const std::vector<Stop>& stops() const { return stops_; }
@@ -77,12 +81,15 @@ class TerrainSite {
  private:
   TerrainSite() = default;
 
+  std::vector<std::string> file_names() const;
+  Result<std::string> version_of_files() const;
   // Over the cells of the terrain that the geometry has. Unknown ground all over may be a single cell.
   Result<std::shared_ptr<const dem::SoilMap>> soils_over(const dem::GridGeometry& geometry,
                                                          const Legend& legend, bool one_cell_if_unknown,
                                                          int step = 1) const;
 
   std::filesystem::path folder_;
+  std::string version_;
   TerrainDescription description_;
   std::shared_ptr<const dem::ElevationSource> elevation_;
   std::vector<Stop> stops_;

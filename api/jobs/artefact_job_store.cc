@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "api/jobs/artefact_row.h"
@@ -56,10 +59,17 @@ class ArtefactJobStore final : public JobStore {
   }
 
   Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
+    auto forgotten = store_->forget_ended(kept, now);
     std::int64_t last = cleaned_ms_;
-    if (folder_ != nullptr && now - last > kHour_ms && cleaned_ms_.compare_exchange_strong(last, now))
-      folder_->forget_before(now - kept.most_age_ms - kDay_ms);
-    return store_->forget_ended(kept, now);
+    const bool is_due = folder_ != nullptr && std::abs(now - last) > kHour_ms;
+    if (!forgotten || !is_due || !cleaned_ms_.compare_exchange_strong(last, now)) return forgotten;
+    // What is older than every job that is kept is none's. Where the clock was set, the earlier time holds.
+    const auto jobs = store_->list(std::numeric_limits<std::int32_t>::max());
+    if (!jobs) return fail(jobs.error());
+    std::int64_t oldest = now - kept.most_age_ms;
+    for (const Job& job : *jobs) oldest = std::min(oldest, job.created_ms);
+    folder_->forget_before(oldest - kDay_ms);
+    return forgotten;
   }
 
   Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,

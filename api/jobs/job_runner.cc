@@ -138,6 +138,7 @@ Result<std::optional<QueueEstimate>> JobRunner::queue_estimate(const Job& job) {
   if (!*place) return std::nullopt;
   QueueEstimate estimate{.ahead = (*place)->ahead, .wait_s = (*place)->work_ahead_s};
   if (estimate.wait_s) *estimate.wait_s /= takers;
+  if (shortage_) estimate.shortage = shortage_();
   return estimate;
 }
 

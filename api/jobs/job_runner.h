@@ -49,8 +49,9 @@ struct Submission {
 
 // When a job that waits is likely to begin.
 struct QueueEstimate {
-  int ahead = 0;                 // how many of those that wait begin before it
-  std::optional<double> wait_s;  // by what the last jobs took; nothing where that is not known
+  int ahead = 0;                             // how many of those that wait begin before it
+  std::optional<double> wait_s;              // by what the last jobs took; nothing where that is not known
+  std::optional<std::string> shortage = {};  // why not all workers run, in words for a person
 };
 
 // Claims jobs from a store and runs them on its own threads; of short parts of one job each takes several at
@@ -89,6 +90,8 @@ class JobRunner {
   // Called after each acceptance, dismissal and end, from the thread that brought it about; to be set before
   // start().
   void on_change(std::function<void()> call) { on_change_ = std::move(call); }
+  // Who knows why not all workers run, where they are other processes; to be set before start().
+  void on_shortage(std::function<std::optional<std::string>()> ask) { shortage_ = std::move(ask); }
   // Jobs being worked on by this process now.
   int running() const { return running_; }
   // How long the work of this process has neither reported anything nor asked whether it is wanted; the
@@ -114,6 +117,7 @@ class JobRunner {
   std::condition_variable ended_;
   std::map<std::string, JobProgress*, std::less<>> active_;  // by job id
   std::function<void()> on_change_;
+  std::function<std::optional<std::string>()> shortage_;
   std::atomic<int> rings_{0};
   std::atomic<int> work_rings_{0};  // so that none is missed between a claim and the wait for the next
   std::atomic<bool> stopping_{false};

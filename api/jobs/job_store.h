@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -102,11 +103,17 @@ enum class HandBack {
   kDied,     // it died, and starts again
 };
 
-// Which ended jobs are kept: none beyond any of these, the newest first.
+// Which ended jobs are kept: none beyond any of these, the newest first. A time of more than kLongestPause_ms
+// in which no job ended looks like a clock that was set wrong, and of it only counted_pause_ms() is added to
+// the age of what ended before: no such jump makes all jobs too old.
 struct Retention {
+  static constexpr std::int64_t kLongestPause_ms = std::int64_t{30} * 24 * 3600 * 1000;
+
   std::size_t most = 1000;
   std::int64_t most_age_ms = std::int64_t{90} * 24 * 3600 * 1000;
   std::int64_t most_bytes = std::int64_t{4} << 30;  // of requests and outcomes
+
+  std::int64_t counted_pause_ms() const { return std::min(kLongestPause_ms, most_age_ms / 3); }
 };
 
 // What happens to a store that somebody may wait for.

@@ -51,10 +51,14 @@ PostgresValues held(const Lease& lease) {
   return PostgresValues().text(lease.id).number(lease.attempt).text(lease.worker);
 }
 
+bool has_known_state(const PostgresRows& rows, int row) {
+  return job_state(rows.text(row, 2)).has_value();
+}
+
 Job job_of(const PostgresRows& rows, int row) {
   const auto state = job_state(rows.text(row, 2));
   if (!state)
-    throw PostgresFailure(
+    throw PostgresDamage(
         fmt::format("what is stored of job {} has the state \"{}\", which is none: ask again "
                     "for what it was asked",
                     rows.text(row, 0), rows.text(row, 2)));
@@ -200,19 +204,26 @@ int forget_jobs(PostgresConnection& connection, const Retention& kept, std::int6
   };
   return connection
       .run(fmt::format("DELETE FROM slipway_jobs WHERE sequence IN (SELECT sequence FROM ("
+                       "SELECT sequence, number, bytes, sum(CASE WHEN gap > $6 THEN $7 ELSE gap END) OVER "
+                       "latest AS age FROM ("
                        "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
                        "sum({} + CASE parts WHEN 0 THEN 0 ELSE (SELECT sum({}) FROM slipway_jobs AS of_it "
-                       "WHERE of_it.whole = slipway_jobs.id) END) OVER newest AS bytes "
+                       "WHERE of_it.whole = slipway_jobs.id) END) OVER newest AS bytes, "
+                       "greatest(0, lag(ended_ms, 1, $3) OVER latest - ended_ms) AS gap "
                        "FROM slipway_jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL "
-                       "WINDOW newest AS (ORDER BY sequence DESC)) AS ended "
-                       "WHERE number > $1 OR bytes > $2 OR $3 - ended_ms > $4)",
+                       "WINDOW newest AS (ORDER BY sequence DESC), "
+                       "latest AS (ORDER BY ended_ms DESC, sequence)) AS by_gap "
+                       "WINDOW latest AS (ORDER BY ended_ms DESC, sequence)) AS ended "
+                       "WHERE number > $1 OR bytes > $2 OR age > $4)",
                        own("slipway_jobs"), own("of_it")),
            PostgresValues()
                .number(static_cast<std::int64_t>(kept.most))
                .number(kept.most_bytes)
                .number(now)
                .number(kept.most_age_ms)
-               .text(kArtefactMark))
+               .text(kArtefactMark)
+               .number(Retention::kLongestPause_ms)
+               .number(kept.counted_pause_ms()))
       .changed();
 }
 

@@ -21,7 +21,8 @@ inline constexpr int kJobRowColumns = 22;
 inline constexpr std::string_view kHeldRow = "id = $1 AND attempt = $2 AND worker = $3 AND state = 'running'";
 PostgresValues held(const Lease& lease);
 
-// Of a row of kJobRow.
+// Of a row of kJobRow. One of a state that there is none of was damaged.
+bool has_known_state(const PostgresRows& rows, int row);
 Job job_of(const PostgresRows& rows, int row);
 std::vector<Job> jobs_of(const PostgresRows& rows);
 std::optional<Job> get_from(PostgresConnection& connection, std::string_view id);

@@ -275,10 +275,15 @@ class PostgresJobStore final : public JobStore {
 
   Result<std::vector<Job>> list(std::size_t most) override {
     return quick_.run([&](PostgresConnection& connection) {
-      return jobs_of(connection.run(
+      const PostgresRows rows = connection.run(
           fmt::format("SELECT {} FROM slipway_jobs WHERE whole IS NULL ORDER BY sequence DESC LIMIT $1",
                       kJobRow),
-          PostgresValues().number(static_cast<std::int64_t>(most))));
+          PostgresValues().number(static_cast<std::int64_t>(most)));
+      std::vector<Job> jobs;
+      for (int row = 0; row < rows.count(); ++row)
+        if (has_known_state(rows, row))
+          jobs.push_back(job_of(rows, row));  // a damaged one hides itself alone
+      return jobs;
     });
   }
 

@@ -6,8 +6,30 @@
 namespace slipway::api {
 namespace {
 
+constexpr int kPrimaryCode = 0xff;  // the other bits tell kinds of it apart
+
+// What to do about it.
+std::string_view remedy_of(int code) {
+  switch (code & kPrimaryCode) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return "; stop the service and restore a copy of the file, or move it away to begin an empty one";
+    case SQLITE_FULL:
+      return "; make room on its disk";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "; another process holds it: try again, or stop that one";
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return "; let the service read and write the file and its folder, and look whether their disk is sound";
+    default:
+      return "";
+  }
+}
+
 [[noreturn]] void throw_failure(int code, const std::string& words) {
-  constexpr int kPrimaryCode = 0xff;  // the other bits tell kinds of it apart
   switch (code & kPrimaryCode) {
     case SQLITE_FULL:
       throw SqliteFull(words);
@@ -23,12 +45,7 @@ namespace {
   const char* const file = sqlite3_db_filename(database, "main");
   const std::string of = file == nullptr || *file == '\0' ? "" : fmt::format(" of {}", file);
   const int code = sqlite3_errcode(database);
-  const bool damaged = (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB;
-  throw_failure(code,
-                fmt::format("SQLite{}: {}{}", of, sqlite3_errmsg(database),
-                            damaged ? "; stop the service and restore a copy of the file, or move it away "
-                                      "to begin an empty one"
-                                    : ""));
+  throw_failure(code, fmt::format("SQLite{}: {}{}", of, sqlite3_errmsg(database), remedy_of(code)));
 }
 
 }  // namespace
@@ -99,7 +116,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, CommitKind
   database_.reset(database);  // there is one to close even when opening failed
   if (code != SQLITE_OK) {
     throw SqliteFailure(
-        fmt::format("SQLite can't open {}: {}", path.filename().string(), sqlite3_errstr(code)));
+        fmt::format("SQLite can't open {}: {}{}", path.string(), sqlite3_errstr(code), remedy_of(code)));
   }
   constexpr int kBusy_ms = 5000;
   sqlite3_busy_timeout(database, kBusy_ms);

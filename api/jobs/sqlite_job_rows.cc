@@ -169,14 +169,21 @@ int forget_jobs(SqliteConnection& connection, const Retention& kept, std::int64_
   };
   auto erase = connection.prepare(fmt::format(
       "DELETE FROM jobs WHERE sequence IN (SELECT sequence FROM ("
+      "SELECT sequence, number, bytes, sum(CASE WHEN gap > ?6 THEN ?7 ELSE gap END) OVER latest AS age FROM ("
       "SELECT sequence, ended_ms, row_number() OVER newest AS number, sum({} + CASE parts WHEN 0 THEN 0 ELSE "
-      "(SELECT sum({}) FROM jobs AS part_of_it WHERE part_of_it.whole = jobs.id) END) OVER newest AS bytes "
+      "(SELECT sum({}) FROM jobs AS part_of_it WHERE part_of_it.whole = jobs.id) END) OVER newest AS bytes, "
+      "max(0, lag(ended_ms, 1, ?4) OVER latest - ended_ms) AS gap "
       "FROM jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL "
-      "WINDOW newest AS (ORDER BY sequence DESC)) "
-      "WHERE number > ?2 OR bytes > ?3 OR ?4 - ended_ms > ?5)",
+      "WINDOW newest AS (ORDER BY sequence DESC), latest AS (ORDER BY ended_ms DESC, sequence)) "
+      "WINDOW latest AS (ORDER BY ended_ms DESC, sequence)) "
+      "WHERE number > ?2 OR bytes > ?3 OR age > ?5)",
       own("jobs"), own("part_of_it")));
   erase.bind(kArtefactMark).bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes);
-  erase.bind(now).bind(kept.most_age_ms).step();
+  erase.bind(now)
+      .bind(kept.most_age_ms)
+      .bind(Retention::kLongestPause_ms)
+      .bind(kept.counted_pause_ms())
+      .step();
   return connection.changes();
 }
 

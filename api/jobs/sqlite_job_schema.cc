@@ -122,7 +122,7 @@ const std::vector<std::string> kTableColumns{"sequence",
 constexpr std::string_view kMoveAway = "move it away to begin an empty store, or name another with --jobs";
 
 [[noreturn]] void refuse(const fs::path& store, const std::string& why, std::string_view remedy) {
-  throw SqliteFailure(fmt::format("the job store {} {}; {}", store.string(), why, remedy));
+  throw SqliteDamage(fmt::format("the job store {} {}; {}", store.string(), why, remedy));
 }
 
 fs::path marker_of(const fs::path& store) {
@@ -274,10 +274,10 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
     check_columns(connection, store);
     connection.execute(kBestSoFar);
     end_leases_of_other_boots(connection);
-  } catch (const SqliteFull&) {
-    throw;
   } catch (const SqliteDamage& damage) {
-    refuse(store, fmt::format("can't be read ({})", damage.what()), kMoveAway);
+    const std::string words = damage.what();
+    if (words.find(store.string()) != std::string::npos) throw;
+    refuse(store, fmt::format("can't be read ({})", words), kMoveAway);
   }
   if (std::error_code ignored; store.empty() || fs::exists(marker_of(store), ignored)) return;
   const std::string words = fmt::format(

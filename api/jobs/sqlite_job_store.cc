@@ -423,12 +423,11 @@ Result<std::unique_ptr<JobStore>> open_sqlite_job_store(const std::filesystem::p
     check_marker(path);
     return std::make_unique<SqliteJobStore>(path, how_far);
   } catch (const SqliteFull& failure) {
-    return fail(ErrorCode::kStorageFull, fmt::format("the job store {}: {}", path.string(), failure.what()));
+    return fail(ErrorCode::kStorageFull, failure.what());
+  } catch (const SqliteDamage& failure) {
+    return fail(ErrorCode::kDamagedStore, failure.what());
   } catch (const SqliteFailure& failure) {
-    const std::string words = failure.what();
-    const bool names_it = words.find(path.string()) != std::string::npos;
-    return fail(ErrorCode::kStorage,
-                names_it ? words : fmt::format("the job store {}: {}", path.string(), words));
+    return fail(ErrorCode::kStorage, failure.what());
   }
 }
 

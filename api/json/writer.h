@@ -42,7 +42,8 @@ class Writer {
   Writer& angle_deg(std::string_view name, double rad) { return key(name).angle_deg(rad); }
   Writer& texts(std::string_view name, const std::vector<std::string>& values);
 
-  std::string take() { return std::move(out_); }
+  // What was written since the last call.
+  std::string take() { return std::exchange(out_, {}); }
 
  private:
   void separate();

@@ -31,6 +31,7 @@ struct LearntDrive {
 // The inputs of an answer, so that it can be repeated and checked. They do not depend on time or machine.
 struct Provenance {
   std::string terrain_title;
+  std::string terrain_version;      // see TerrainSite::version()
   std::string terrain_fingerprint;  // of the heights in the window that was read
   std::string crs_name;
   std::string body;

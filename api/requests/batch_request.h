@@ -12,8 +12,9 @@ inline constexpr std::size_t kMaxBatchRequests = 1000;  // that differ in more t
 // POST /v1/batches asks for the answers to many requests of one kind.
 struct BatchRequest {
   std::string kind;
-  std::vector<std::string> requests;  // documents, in the order of the answers
-  std::size_t seeds = 1;              // so many in a row are one request with different seeds
+  std::vector<std::string> requests;       // documents, in the order of the answers
+  std::vector<std::string> terrains = {};  // that the requests are about
+  std::size_t seeds = 1;                   // so many in a row are one request with different seeds
 };
 
 struct BatchAnswer {

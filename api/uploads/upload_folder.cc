@@ -114,6 +114,11 @@ std::optional<UploadOrigin> read_origin(const fs::path& folder, std::string* nam
   return origin;
 }
 
+bool may_change(const std::optional<UploadOrigin>& origin, const Asker& asker) {
+  if (asker.name.empty() || asker.is_admin) return true;
+  return origin && (origin->owner.empty() || origin->owner == asker.name);
+}
+
 Result<bool> put_in_place(const fs::path& finished, const fs::path& place) {
   for (const auto& entry : fs::recursive_directory_iterator(finished)) sync(entry.path());
   sync(finished);

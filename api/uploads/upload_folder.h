@@ -13,6 +13,12 @@
 // What clients send: files, and the drive campaigns and terrains that are made of them.
 namespace slipway::api {
 
+// Who asks for work: what is made of it is theirs.
+struct Asker {
+  std::string name = {};  // of the token; empty: anybody, where none are needed
+  bool is_admin = false;
+};
+
 // Who put something there, and when.
 struct UploadOrigin {
   std::string owner = {};    // empty: anybody's
@@ -81,6 +87,10 @@ std::string origin_document(const UploadOrigin& origin, std::string_view name);
 Result<void> write_origin(const std::filesystem::path& folder, const UploadOrigin& origin,
                           std::string_view name);
 std::optional<UploadOrigin> read_origin(const std::filesystem::path& folder, std::string* name = nullptr);
+
+// Whether what is from there may be replaced or removed: by who made it, by anybody where nobody has, by an
+// administrator, and where no tokens are needed. Where it is not known who made it (nothing), not by others.
+bool may_change(const std::optional<UploadOrigin>& origin, const Asker& asker);
 
 // Puts a finished folder under its name, so that it is there after a failure of power too. False: the name is
 // taken. Errors: storage.

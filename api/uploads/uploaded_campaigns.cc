@@ -167,19 +167,18 @@ Result<void> append_drives(const fs::path& earlier, const json::JsonValue& drive
 
 Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& order,
                                     const Catalogue& catalogue, Progress& progress) {
-  UploadOrigin origin{.at_ms = now_ms(), .from = order.upload, .follows = order.follows};
+  const UploadOrigin origin{
+      .owner = order.asker.name, .at_ms = now_ms(), .from = order.upload, .follows = order.follows};
   fs::path source;
   if (order.upload.empty()) {
     const auto earlier = uploaded_campaign(uploads, order.follows);
     if (!earlier)
       return fail(ErrorCode::kNotFound, fmt::format("there is no uploaded campaign {}", order.follows));
     source = earlier->parent_path();
-    if (const auto known = read_origin(source)) origin.owner = known->owner;
   } else {
     const auto file = uploads.verified(order.upload);
     if (!file) return fail(file.error());
     source = *file;
-    if (const auto known = uploads.find(order.upload)) origin.owner = known->origin.owner;
   }
   const std::string unnamed = "new";
   remove_abandoned(uploads.campaigns(), unnamed);

@@ -21,7 +21,8 @@ struct CampaignOrder {
   std::string upload;   // the archive's id; or
   std::string follows;  // a campaign's name, and
   std::optional<json::JsonValue>
-      drives;  // drives of "drive-campaign/1" with their rows as "csv" in the place of "file"
+      drives;        // drives of "drive-campaign/1" with their rows as "csv" in the place of "file"
+  Asker asker = {};  // whose it is then; the same files that somebody else sent before stay theirs
 };
 
 struct CampaignTaken {

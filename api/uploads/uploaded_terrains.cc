@@ -1,6 +1,9 @@
 #include "api/uploads/uploaded_terrains.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/utc.h"
@@ -16,6 +19,19 @@ Error in_words_of_request(Error error) {
 }
 
 }  // namespace
+
+Result<void> claim_terrain(const UploadFolder& uploads, TerrainOrder& order, const Asker& asker) {
+  order.asker = asker;
+  const std::filesystem::path place = uploads.terrains() / order.import.name;
+  std::error_code error;
+  if (!std::filesystem::exists(place, error) || may_change(read_origin(place), asker)) return {};
+  return fail(
+      ErrorCode::kConflict, "the terrain's name is taken",
+      {{"/name",
+        fmt::format("{} is the name of a terrain that somebody else made: choose another name, or ask "
+                    "an administrator to replace it",
+                    in_quotes(order.import.name))}});
+}
 
 Result<TerrainImportReport> take_terrain(UploadFolder& uploads, const TerrainOrder& order,
                                          const Catalogue& catalogue, Progress& progress) {
@@ -36,14 +52,15 @@ Result<TerrainImportReport> take_terrain(UploadFolder& uploads, const TerrainOrd
   // What is written is about as large as what was sent, with its overviews half as large again.
   if (const auto room = uploads.check_room(elevation->bytes + elevation->bytes / 2); !room)
     return fail(room.error());
-  const UploadOrigin origin{.owner = elevation->origin.owner, .at_ms = now_ms(), .from = order.elevation};
-  // A worker that died after the terrain was in its place does it again.
-  const auto before = read_origin(uploads.terrains() / import.name);
-  import.replace = before && before->from == origin.from;
-  import.origin = origin_document(origin, import.name);
-  auto report = import_terrain(import, catalogue, progress);
-  if (!report) return fail(in_words_of_request(report.error()));
-  return report;
-}
+  const UploadOrigin origin{.owner = order.asker.name, .at_ms = now_ms(), .from = order.elevation};
+  // A worker that died after the terrain was in its place does it again, too.
+  import.may_replace = [&order](const std::filesystem::path& there) {
+    return may_change(read_origin(there), order.asker);
+};
+import.origin = origin_document(origin, import.name);
+auto report = import_terrain(import, catalogue, progress);
+if (!report) return fail(in_words_of_request(report.error()));
+return report;
+}  // namespace slipway::api
 
 }  // namespace slipway::api

@@ -63,10 +63,12 @@ HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchang
     return engine.respond(std::move(exchange), [this](HttpRequest& request) { return routed(request); });
   } catch (...) {
     log(fmt::format("a request could not be answered: {}", text_of(std::current_exception())));
-    return {to_refused(engine, {head.substr(0, head.find(' ')), header_in(head, "Origin")},
-                       {ErrorCode::kInternal, "the request could not be answered", {}}),
-            {}};
+    return instead(engine, head, {ErrorCode::kInternal, "the request could not be answered", {}});
   }
+}
+
+HttpEngine::Outgoing Answers::instead(HttpEngine& engine, std::string_view head, const Error& error) const {
+  return {to_refused(engine, {head.substr(0, head.find(' ')), header_in(head, "Origin")}, error), {}};
 }
 
 const Route* Answers::route_of(const RequestHead& head) const {

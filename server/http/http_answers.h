@@ -20,6 +20,8 @@ class Answers {
 
   // Never throws.
   HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  // In the place of the answer to the request with this head.
+  HttpEngine::Outgoing instead(HttpEngine& engine, std::string_view head, const Error& error) const;
   const Route* route_of(const RequestHead& head) const;
   // What is known of a request that is refused before it is whole.
   struct Refused {

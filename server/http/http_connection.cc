@@ -13,9 +13,6 @@ namespace {
 
 // Read from one connection before the others have their turn.
 constexpr std::size_t kReadPerTurn = std::size_t{256} << 10;
-// Bodies up to this size are read even when max_buffered_bytes is exhausted: a flood of large ones must not
-// shut out the small requests of everyone else.
-constexpr std::size_t kAlwaysBuffered = std::size_t{16} << 10;
 
 }  // namespace
 
@@ -131,7 +128,8 @@ bool HttpLoop::send_rest(Connection& connection, bool& blocked) {
   std::string_view rest = std::string_view(connection.unsent).substr(connection.sent);
   const Transfer sent = send_some(connection.socket.fd(), rest);
   if (sent == Transfer::kBroken) return false;
-  connection.sent = connection.unsent.size() - rest.size();
+  const std::size_t before = std::exchange(connection.sent, connection.unsent.size() - rest.size());
+  connection.taken += connection.sent - before;
   if (sent == Transfer::kBlocked) {
     blocked = true;
     return keep_to_budget(connection);
@@ -186,7 +184,9 @@ bool HttpLoop::keep_to_budget(Connection& connection) {
 }
 
 void HttpLoop::recount(Connection& connection) {
-  const std::size_t now = connection.gatherer.held() + connection.unsent.size();
+  // An answer in pieces has its share for the next one already.
+  const std::size_t piece = connection.pieces ? kMaxPieceBytes : 0;
+  const std::size_t now = connection.gatherer.held() + std::max(connection.unsent.size(), piece);
   counters_.buffered_bytes += now - connection.counted;  // modulo 2^64, so that it may shrink
   connection.counted = now;
 }
@@ -194,9 +194,8 @@ void HttpLoop::recount(Connection& connection) {
 void HttpLoop::wait_for_what_comes(Connection& connection) {
   const std::size_t received = connection.gatherer.received();
   if (received <= connection.waited_for) return;
-  connection.deadline += std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(static_cast<double>(received - connection.waited_for) /
-                                    static_cast<double>(options_.min_body_bytes_per_s)));
+  connection.deadline += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+      static_cast<double>(received - connection.waited_for) / static_cast<double>(options_.min_bytes_per_s)));
   connection.waited_for = received;
 }
 
@@ -218,6 +217,7 @@ void HttpLoop::retime(Connection& connection) {
     return;
   }
   connection.waited_for = 0;
+  connection.taken = 0;
   connection.timing = timing;
   const auto allowed = [&]() -> std::chrono::milliseconds {
     switch (timing) {
@@ -238,6 +238,15 @@ void HttpLoop::retime(Connection& connection) {
     return std::chrono::milliseconds::zero();
   }();
   connection.deadline = timing == Timing::kNone ? Clock::time_point::max() : Clock::now() + allowed;
+}
+
+bool HttpLoop::is_taken(Connection& connection, Clock::time_point now) const {
+  const std::chrono::duration<double> window = options_.write_deadline;
+  const double enough = static_cast<double>(options_.min_bytes_per_s) * window.count();
+  if (connection.timing != Timing::kSending || static_cast<double>(connection.taken) < enough) return false;
+  connection.taken = 0;
+  connection.deadline = now + options_.write_deadline;
+  return true;
 }
 
 void HttpLoop::close(Connection& connection) {

@@ -234,7 +234,7 @@ void HttpLoop::sweep() {
   if (!draining_) watch_listener(true);
   std::vector<Connection*> late;
   for (const auto& [id, connection] : connections_) {
-    if (connection->deadline <= now) late.push_back(connection.get());
+    if (connection->deadline <= now && !is_taken(*connection, now)) late.push_back(connection.get());
   }
   for (Connection* connection : late) {
     const bool begun = connection->timing == Timing::kHead || connection->timing == Timing::kBody;

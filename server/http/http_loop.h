@@ -65,6 +65,7 @@ class HttpLoop {
     Timing timing = Timing::kNone;
     Clock::time_point deadline = Clock::time_point::max();
     std::size_t waited_for = 0;  // of the body: bytes for which the deadline was put off
+    std::size_t taken = 0;       // of the answer: bytes since the deadline was set
     bool admitted = true;      // counted in the caps; false for one that only gets to hear why it was refused
     bool readable = false;     // edge-triggered: true until recv() says that there is nothing
     bool hung_up = false;      // the peer will send no more than what is there
@@ -106,6 +107,8 @@ class HttpLoop {
   void recount(Connection& connection);
   void retime(Connection& connection);
   void wait_for_what_comes(Connection& connection);
+  // Whether the client takes its answer fast enough to be waited for again.
+  bool is_taken(Connection& connection, Clock::time_point now) const;
   void close(Connection& connection);
 
   const HttpOptions& options_;

@@ -44,8 +44,9 @@ struct HttpRequest {
   std::string_view parameter(std::string_view name) const;
 };
 
-// Gives the pieces of a long body one after the other, nothing after the last. An error ends the connection
-// in the middle of the body, which the client sees.
+// Gives the pieces of a long body one after the other, of kMaxPieceBytes at most, nothing after the last. An
+// error ends the connection in the middle of the body, which the client sees.
+inline constexpr std::size_t kMaxPieceBytes = std::size_t{1} << 20;
 using BodyPieces = std::function<Result<std::optional<std::string>>()>;
 
 struct HttpResponse {

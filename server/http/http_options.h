@@ -45,11 +45,13 @@ struct HttpOptions {
   std::size_t worker_threads = 8;
   // As many heavy routes are answered at once, see Route: pictures, reports, long tables.
   std::size_t heavy_threads = 2;
+  // As many requests for work are checked, or wait for their end, at once.
+  std::size_t asking_threads = 6;
 
   // The largest request is a drive's telemetry as JSON; a day of one rover at 1 Hz is below 4 MiB.
   std::size_t max_body_bytes = std::size_t{4} << 20;
   // Bodies being gathered and answers not yet taken, over all connections: what slow clients can hold in
-  // memory.
+  // memory. An answer that would take more is 503 instead.
   std::size_t max_buffered_bytes = std::size_t{64} << 20;
   // Request line and headers together; browsers with cookies stay below 8 kB.
   std::size_t max_header_bytes = std::size_t{16} << 10;
@@ -66,12 +68,13 @@ struct HttpOptions {
 
   // From the first byte of a head to its end. A head is one packet or a few.
   std::chrono::milliseconds header_deadline{5'000};
-  // From the end of the head to the end of the body. Every second's worth of `min_body_bytes_per_s` that has
+  // From the end of the head to the end of the body. Every second's worth of `min_bytes_per_s` that has
   // come puts it off by a second: what comes steadily is waited for, what drips is not.
   std::chrono::milliseconds body_deadline{5'000};
-  std::size_t min_body_bytes_per_s = 64'000;
-  // From the answer to its last byte taken: 16 MB at 560 kB/s. A client that does not read holds memory.
+  // So long an answer is waited for, again and again while the client takes `min_bytes_per_s` of it in each.
+  // One that does not read holds memory.
   std::chrono::milliseconds write_deadline{30'000};
+  std::size_t min_bytes_per_s = 64'000;
   // Between two requests. Idle connections cost a descriptor and no thread, so this can be generous.
   std::chrono::milliseconds idle_deadline{60'000};
   // After an answer that ends the connection: as long as we go on reading and forgetting what the client

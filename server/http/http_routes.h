@@ -10,17 +10,21 @@
 
 namespace slipway::server {
 
+// Which threads answer a route, each sort for its own routes alone, so that none waits behind another.
+enum class Threads {
+  kLight,   // who polls
+  kHeavy,   // what takes long or much memory, a few at once
+  kAsking,  // requests that are checked, and clients that wait for their end
+  kPrompt,  // what waits for nothing, no store and no other thread
+};
+
 // What answers one method at the addresses of one pattern. "/v1/jobs/{id}" has three segments, and the last
 // one stands for any non-empty text without a slash, found again under request.parameter("id").
 struct Route {
   std::string method;
   std::string pattern;
   std::function<HttpResponse(const HttpRequest&)> handle;  // called from several threads at once
-  // Takes long or much memory: answered by a few threads of its own, so that who polls does not wait behind
-  // it.
-  bool heavy = false;
-  // Waits for nothing, no store and no other thread: answered by a thread that only such routes have.
-  bool prompt = false;
+  Threads threads = Threads::kLight;
 };
 
 // The routes, matched segment by segment: cpp-httplib's patterns are std::regex, which some patterns bring to

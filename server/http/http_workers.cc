@@ -11,13 +11,14 @@ namespace slipway::server {
 HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
                          std::function<void(WorkDone)> done)
     : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
-  const auto begin = [this](std::size_t count, Queue& queue) {
+  const std::pair<Threads, std::size_t> sorts[] = {{Threads::kLight, options.worker_threads},
+                                                   {Threads::kHeavy, options.heavy_threads},
+                                                   {Threads::kAsking, options.asking_threads},
+                                                   {Threads::kPrompt, 1}};
+  for (const auto& sort : sorts) queues_[sort.first];
+  for (const auto& [sort, count] : sorts)
     for (std::size_t i = 0; i < std::max<std::size_t>(1, count); ++i)
-      threads_.emplace_back([this, &queue] { run(queue); });
-  };
-  begin(options.worker_threads, light_);
-  begin(options.heavy_threads, heavy_);
-  begin(1, prompt_);
+      threads_.emplace_back([this, &queue = queues_.at(sort)] { run(queue); });
 }
 
 HttpWorkers::~HttpWorkers() {
@@ -25,7 +26,7 @@ HttpWorkers::~HttpWorkers() {
 }
 
 void HttpWorkers::submit(Work work) {
-  Queue& queue = queue_of(work);
+  Queue& queue = queues_.at(threads_of(work));
   {
     const std::lock_guard lock(mutex_);
     queue.waiting.push_back(std::move(work));
@@ -33,11 +34,10 @@ void HttpWorkers::submit(Work work) {
   queue.condition.notify_one();
 }
 
-HttpWorkers::Queue& HttpWorkers::queue_of(const Work& work) {
-  if (work.pieces) return heavy_;
+Threads HttpWorkers::threads_of(const Work& work) const {
+  if (work.pieces) return Threads::kHeavy;
   const Route* const route = answers_.route_of(work.gathered.head);
-  if (route == nullptr) return light_;
-  return route->prompt ? prompt_ : route->heavy ? heavy_ : light_;
+  return route == nullptr ? Threads::kLight : route->threads;
 }
 
 void HttpWorkers::stop() {
@@ -45,7 +45,7 @@ void HttpWorkers::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  for (Queue* queue : {&light_, &heavy_, &prompt_}) queue->condition.notify_all();
+  for (auto& [sort, queue] : queues_) queue.condition.notify_all();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
@@ -80,7 +80,10 @@ void HttpWorkers::go_on(Work work) {
       std::string_view rest = **piece;
       const Transfer outcome = send_some(work.fd, rest);
       const std::size_t sent = (*piece)->size() - rest.size();
-      if (outcome == Transfer::kBlocked) keep(done, **std::move(piece), sent);
+      if (outcome == Transfer::kBlocked) {
+        done.unsent = **std::move(piece);
+        done.sent = sent;
+      }
       done.broken = done.broken || outcome == Transfer::kBroken;
       done.pieces = std::move(work.pieces);
     }
@@ -97,16 +100,29 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
       answers_.to_request(engine, {work.gathered.head.forwarded, std::move(work.gathered.body),
                                    std::move(work.gathered.body_file), work.remote_address, work.close});
   counters_.requests_served.fetch_add(1, std::memory_order_relaxed);
+  // Taken here and not in the loop, which may be many answers behind; before the head, which can't be taken
+  // back.
+  const std::size_t share = out.body.size() + (out.pieces ? kMaxPieceBytes : 0);
+  if (has_room(share)) {
+    done.counted = share;
+  } else {
+    out = answers_.instead(
+        engine, work.gathered.head.forwarded,
+        {ErrorCode::kTooManyJobs, "too many large answers wait for slow clients: ask again later", {}});
+    done.close = true;
+  }
   // Sent from here rather than from the loop: one hop less before the client has its answer.
   std::string_view front = out.front;
   Transfer outcome = send_some(work.fd, front, !out.body.empty());
   if (outcome == Transfer::kSome) {
     std::string_view body = out.body;
     outcome = send_some(work.fd, body);
-    const std::size_t sent = out.body.size() - body.size();
-    if (outcome == Transfer::kBlocked) keep(done, std::move(out.body), sent);
+    if (outcome == Transfer::kBlocked) {
+      done.sent = out.body.size() - body.size();
+      done.unsent = std::move(out.body);
+    }
   } else if (outcome == Transfer::kBlocked) {
-    keep(done, std::string(front) + out.body, 0);
+    done.unsent = std::string(front) + out.body;
   }
   done.broken = done.broken || outcome == Transfer::kBroken;
   done.stream = std::move(out.stream);
@@ -115,18 +131,12 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
   done_(std::move(done));
 }
 
-void HttpWorkers::keep(WorkDone& done, std::string unsent, std::size_t sent) {
-  // Taken here and not in the loop, which may be many answers behind.
-  const std::size_t size = unsent.size();
-  if (counters_.buffered_bytes.fetch_add(size) + size > options_.max_buffered_bytes) {
-    counters_.buffered_bytes -= size;
-    answers_.log("an answer was dropped: too many bytes wait to be taken by slow clients");
-    done.broken = true;
-    return;
-  }
-  done.unsent = std::move(unsent);
-  done.sent = sent;
-  done.counted = size;
+bool HttpWorkers::has_room(std::size_t bytes) {
+  if (counters_.buffered_bytes.fetch_add(bytes) + bytes <= options_.max_buffered_bytes ||
+      bytes <= kAlwaysBuffered)
+    return true;
+  counters_.buffered_bytes -= bytes;
+  return false;
 }
 
 }  // namespace slipway::server

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -15,6 +16,10 @@
 #include "server/http/http_options.h"
 
 namespace slipway::server {
+
+// Bodies and answers up to this size pass even when max_buffered_bytes is exhausted: a flood of large ones
+// must not shut out the small requests of everyone else.
+inline constexpr std::size_t kAlwaysBuffered = std::size_t{16} << 10;
 
 // The live form of HttpCounters, and the budget of which several threads take.
 struct LiveCounters {
@@ -40,15 +45,15 @@ struct WorkDone {
   std::uint64_t connection = 0;
   std::string unsent;  // what the client did not take at once: from `sent` on
   std::size_t sent = 0;
-  std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
+  std::size_t counted = 0;  // of the answer, or of its next piece, in the budget of buffered bytes already
   bool close = false;
   bool broken = false;  // the client has gone
   std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
   BodyPieces pieces = {};  // which are to follow
 };
 
-// The threads in which handlers run, those of heavy routes in threads of their own. They never wait for a
-// client: what a socket does not take is given back.
+// The threads in which handlers run, see Threads. They never wait for a client: what a socket does not take
+// is given back.
 class HttpWorkers {
  public:
   // `answers` and `counters` outlive this; `done` is called from the threads.
@@ -70,18 +75,18 @@ class HttpWorkers {
     std::deque<Work> waiting;
   };
 
-  Queue& queue_of(const Work& work);
+  Threads threads_of(const Work& work) const;
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void go_on(Work work);
-  void keep(WorkDone& done, std::string unsent, std::size_t sent);
+  bool has_room(std::size_t bytes);
 
   const HttpOptions& options_;
   const Answers& answers_;
   LiveCounters& counters_;
   std::function<void(WorkDone)> done_;
   std::mutex mutex_;
-  Queue light_, heavy_, prompt_;
+  std::map<Threads, Queue> queues_;  // all there from the beginning
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

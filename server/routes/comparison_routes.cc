@@ -62,7 +62,7 @@ HttpResponse compare(api::JobStore& store, const HttpRequest& request) {
 
 std::vector<Route> comparison_routes(api::JobStore& store) {
   return {{"GET", "/v1/comparisons", [&store](const HttpRequest& r) { return compare(store, r); },
-           /*heavy=*/true}};
+           Threads::kHeavy}};
 }
 
 }  // namespace slipway::server

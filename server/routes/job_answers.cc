@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -110,15 +111,15 @@ HttpResponse JobAnswers::vectors(const HttpRequest& request, bool geopackage) {
   const bool lonlat = coordinates == "lonlat";
   // SQLite opens a GeoPackage in place page by page: it is not made anew for each.
   const std::string form = geopackage ? "gpkg" : "geojson " + coordinates;
-  const auto bytes =
-      drawn_.get(fmt::format("{}/{}", job->id, form), [&] { return vectors_of(*job, geopackage, lonlat); });
-  if (!bytes) return problem_response(bytes.error(), &request);
+  const auto file = drawn_files_.get(fmt::format("{}/{}", job->id, form), [&] {
+    return DrawnFile::make(drawing_folder_, [&](const std::filesystem::path& path) {
+      return write_vectors(*job, geopackage, lonlat, path);
+    });
+  });
+  if (!file) return problem_response(file.error(), &request);
   HttpResponse response = document({});
   response.content_type = geopackage ? kGeoPackage : kGeoJson;
-  PagedBody whole{{(*bytes)->size()},
-                  [kept = *bytes](std::size_t /*page*/) -> Result<std::string> { return *kept; },
-                  tag_of(**bytes)};
-  return ranged(std::move(response), std::move(whole), request);
+  return ranged(std::move(response), DrawnFile::body(*file), request);
 }
 
 HttpResponse JobAnswers::map(const HttpRequest& request) {
@@ -219,22 +220,11 @@ Result<PagedBody> JobAnswers::pages_of(const api::Job& job) {
   return body;
 }
 
-Result<std::string> JobAnswers::whole_series(const api::Job& job) {
-  const auto pieces = pieces_of(job);
-  if (!pieces) return fail(pieces.error());
-  std::string all;
-  for (;;) {
-    const auto piece = (*pieces)();
-    if (!piece) return fail(piece.error());
-    if (!*piece) return all;
-    all += **piece;
-  }
-}
-
-Result<std::string> JobAnswers::vectors_of(const api::Job& job, bool geopackage, bool lonlat) {
+Result<void> JobAnswers::write_vectors(const api::Job& job, bool geopackage, bool lonlat,
+                                       const std::filesystem::path& path) {
   const auto kept = kept_outcome(job);
   if (!kept) return fail(kept.error());
-  const std::string answer(api::parts_of(*kept).document);
+  const std::string_view answer = api::parts_of(*kept).document;
   if (!api::json::has_stations(answer))
     return fail(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no routes", job.kind));
   const std::shared_ptr<const api::Catalogue> catalogue = service_.catalogue();
@@ -244,16 +234,22 @@ Result<std::string> JobAnswers::vectors_of(const api::Job& job, bool geopackage,
   const dem::ElevationInfo& info = site->second->info();
   const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m,
                                  info.geometry.extent()};
-  std::string stations;
+  api::json::TablePages stations;
   if (api::json::is_thinned(answer)) {
-    auto all = whole_series(job);
-    if (!all) return fail(all.error());
-    stations = *std::move(all);
+    auto pages = pieces_of(job);
+    if (!pages) return fail(pages.error());
+    stations = *std::move(pages);
   }
+  if (geopackage) return api::json::write_answer_geopackage(answer, map, std::move(stations), path);
   using api::json::VectorCoordinates;
-  if (geopackage) return api::json::answer_geopackage(answer, map, stations);
-  return api::json::answer_geojson(
-      answer, map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
+  std::ofstream file(path, std::ios::binary);
+  return api::json::write_answer_geojson(
+      answer, map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap,
+      std::move(stations), [&](std::string_view bytes) -> Result<void> {
+        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+        if (file) return {};
+        return fail(ErrorCode::kStorage, "the vectors can't be written");
+      });
 }
 
 Result<api::SeriesPage> JobAnswers::page_of_stations(const api::Job& job, std::int64_t page) {

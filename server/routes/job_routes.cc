@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr bool kHeavy = true;  // of a Route
+constexpr Threads kHeavy = Threads::kHeavy;
 
 class JobRoutes {
  public:
@@ -39,7 +39,8 @@ class JobRoutes {
   HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
     const auto submission = submission_of(request);
     if (!submission) return problem_response(submission.error(), &request);
-    auto recorded = kind.accept(service_, runner_.store(), request.body);
+    auto recorded =
+        kind.accept(service_, runner_.store(), {request.principal, request.is_admin}, request.body);
     if (!recorded) return problem_response(recorded.error(), &request);
     const Preferences preferences = preferences_of(request);
     const auto job = runner_.submit(kind.name, *std::move(recorded), *submission);
@@ -142,7 +143,7 @@ class JobRoutes {
   HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
     const std::optional<api::QueueEstimate> queue = queue_of(job);
     // What is before it changes without the job.
-    const std::string place = queue ? fmt::format("-{}", queue->ahead) : "";
+    const std::string place = queue ? fmt::format("-{}{}", queue->ahead, queue->shortage ? "-s" : "") : "";
     const std::string tag = fmt::format("\"{}-{}{}\"", job.id, job.version, place);
     // Most polls find nothing new: then nothing is written.
     HttpResponse response = document(is_known_to_client(request, tag) ? "" : status_of(job, queue));
@@ -176,7 +177,7 @@ class JobRoutes {
 
 std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runner,
                               const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
-  const auto answers = std::make_shared<JobAnswers>(service, runner.store(), kinds);
+  const auto answers = std::make_shared<JobAnswers>(service, runner.store(), kinds, options.drawing_folder);
   const auto jobs = std::make_shared<JobRoutes>(service, runner, options, answers);
   std::vector<Route> routes{
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
@@ -199,8 +200,9 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };
   for (const api::JobKind& kind : kinds) {
-    routes.push_back(
-        {"POST", kind.path, [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); }});
+    routes.push_back({"POST", kind.path,
+                      [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); },
+                      Threads::kAsking});
     if (kind.has_report)
       routes.push_back({"GET", kind.path + "/{id}/report",
                         [answers](const HttpRequest& r) { return answers->report(r); }, kHeavy});

@@ -33,7 +33,7 @@ std::vector<Route> operator_routes(const Operation& operation) {
           {.method = "GET",
            .pattern = "/readyz",
            .handle = [of](const HttpRequest& r) { return readiness(*of, r); },
-           .prompt = true}};
+           .threads = Threads::kPrompt}};
 }
 
 }  // namespace slipway::server

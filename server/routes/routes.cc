@@ -65,10 +65,10 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
-       /*heavy=*/true},
+       Threads::kHeavy},
   };
   routes.push_back(fixed("/healthz", api::json::write_health()));
-  routes.back().prompt = true;
+  routes.back().threads = Threads::kPrompt;
   for (std::vector<Route> more :
        {job_routes(service, runner, options, kinds), comparison_routes(runner.store()),
         override_routes(runner.store(), options.override_persons), upload_routes(service),

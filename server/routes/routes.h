@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <vector>
 
 #include "api/job_kinds.h"
@@ -13,8 +14,11 @@ namespace slipway::server {
 
 struct RouteOptions {
   std::chrono::seconds longest_wait{30};  // a longer "Prefer: wait" is cut to this
-  int most_waiting = 4;  // waiting clients hold a handler's thread each: some must stay free for the others
+  int most_waiting =
+      4;  // clients hold one of HttpOptions::asking_threads each: some must stay free for others
   std::size_t most_listed = 500;
+  // Where answers are drawn that are too large for the memory; as many as are kept take 256 MB.
+  std::filesystem::path drawing_folder = std::filesystem::temp_directory_path();
   int override_persons = 2;  // 2: who confirms an override is not who asked for it
 };
 

@@ -26,7 +26,6 @@ namespace slipway::server {
 namespace {
 
 constexpr std::size_t kPictureBytes = 32'000'000;  // of pictures that are kept in memory
-constexpr bool kHeavyPicture = true;               // of a Route
 constexpr std::string_view kPng = ".png";
 
 using Site = std::shared_ptr<const api::TerrainSite>;
@@ -183,7 +182,7 @@ class TerrainRoutes {
   }
 
   const api::Service& service_;
-  DrawnCache drawn_{kPictureBytes};
+  DrawnCache<std::string> drawn_{kPictureBytes};
   std::mutex mutex_;
   std::map<std::string, Known> known_;
 };
@@ -194,13 +193,13 @@ std::vector<Route> terrain_routes(const api::Service& service) {
   const auto terrains = std::make_shared<TerrainRoutes>(service);
   return {
       {"GET", "/v1/terrains/{name}", [terrains](const HttpRequest& r) { return terrains->get(r); },
-       kHeavyPicture},
+       Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/profile",
-       [terrains](const HttpRequest& r) { return terrains->profile(r); }, kHeavyPicture},
+       [terrains](const HttpRequest& r) { return terrains->profile(r); }, Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/{picture}",
-       [terrains](const HttpRequest& r) { return terrains->picture(r); }, kHeavyPicture},
+       [terrains](const HttpRequest& r) { return terrains->picture(r); }, Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/tiles/{layer}/{z}/{x}/{y}",
-       [terrains](const HttpRequest& r) { return terrains->tile(r); }, kHeavyPicture},
+       [terrains](const HttpRequest& r) { return terrains->tile(r); }, Threads::kHeavy},
   };
 }
 

@@ -15,7 +15,7 @@
 namespace slipway::server {
 namespace {
 
-constexpr bool kHeavy = true;  // of a Route
+constexpr Threads kHeavy = Threads::kHeavy;
 
 HttpResponse current(std::string body, const HttpRequest& request) {
   HttpResponse response = document(std::move(body));
@@ -83,8 +83,7 @@ class UploadRoutes {
     const std::string name(request.parameter("name"));
     if (!service_.catalogue()->terrains.contains(name))
       return problem(ErrorCode::kNotFound, "there is no terrain of this name", request);
-    const bool sent = service_.uploads() != nullptr && service_.was_sent(name);
-    if (!sent) return shipped("terrain", request);
+    if (service_.uploads() == nullptr || service_.ships(name)) return shipped("terrain", request);
     return remove_folder(service_.uploads()->terrains() / name, "terrain", request);
   }
 
@@ -107,18 +106,15 @@ class UploadRoutes {
   }
 
   // What somebody else sent.
-  static std::optional<HttpResponse> not_allowed(const api::UploadOrigin& origin,
+  static std::optional<HttpResponse> not_allowed(const std::optional<api::UploadOrigin>& origin,
                                                  const HttpRequest& request) {
-    if (request.principal.empty() || origin.owner.empty() || request.is_admin ||
-        origin.owner == request.principal)
-      return std::nullopt;
+    if (api::may_change(origin, {request.principal, request.is_admin})) return std::nullopt;
     return problem(ErrorCode::kForbidden, "it was sent by somebody else", request);
   }
 
   static HttpResponse remove_folder(const std::filesystem::path& folder, std::string_view what,
                                     const HttpRequest& request) {
-    const auto origin = api::read_origin(folder);
-    if (const auto refused = not_allowed(origin.value_or(api::UploadOrigin{}), request)) return *refused;
+    if (const auto refused = not_allowed(api::read_origin(folder), request)) return *refused;
     return removed(api::take_away(folder), what, request);
   }
 

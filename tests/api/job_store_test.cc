@@ -271,6 +271,31 @@ TEST_P(JobStores, ForgetsWhatIsTooOldOrTooLarge) {
   EXPECT_TRUE(store_->get(ids[2]).value().has_value());
 }
 
+TEST_P(JobStores, AClockThatIsSetFarAheadMakesNoJobTooOldHoweverOften) {
+  constexpr std::int64_t kDay = std::int64_t{24} * 3600 * 1000;
+  for (const std::int64_t most_age : {90 * kDay, 7 * kDay}) {
+    const Retention kept{.most_age_ms = most_age};
+    std::vector<std::string> ids;
+    for (int start = 0; start < 3; ++start) {
+      ids.push_back(accept());
+      ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer"}, now_).value());
+      now_ += 400 * kDay;
+      EXPECT_EQ(store_->forget_ended(kept, now_).value(), 0) << start;
+    }
+    for (const std::string& id : ids) EXPECT_TRUE(store_->get(id).value().has_value());
+    now_ -= 400 * kDay;  // it is set right again
+    EXPECT_EQ(store_->forget_ended(kept, now_).value(), 0);
+    for (int day = 0; day < 100; ++day) {
+      now_ += kDay;
+      accept();
+      ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer"}, now_).value());
+    }
+    EXPECT_EQ(store_->forget_ended(kept, now_).value(), static_cast<int>(3 + 100 - most_age / kDay));
+    for (const std::string& id : ids) EXPECT_EQ(store_->get(id).value(), std::nullopt);
+    ASSERT_GT(store_->forget_ended({.most = 0}, now_).value(), 0);
+  }
+}
+
 TEST_P(JobStores, BytesBehindAZeroCountToo) {
   accept();
   const std::string file = std::string(1, '\0') + std::string(5000, 'x');

@@ -49,6 +49,20 @@ class PostgresJobStoreTest : public ::testing::Test {
   std::unique_ptr<JobStore> store_;
 };
 
+TEST_F(PostgresJobStoreTest, ARowOfAnUnknownStateHidesItselfAlone) {
+  const auto bad = store_->append(new_job(), 1, {}), good = store_->append(new_job(), 2, {});
+  ASSERT_TRUE(bad && good);
+  schema_->run("UPDATE slipway_jobs SET state = 'lost' WHERE id = '" + bad->id + "'");
+  const auto listed = store_->list(10);
+  ASSERT_TRUE(listed) << listed.error().detail;
+  ASSERT_EQ(listed->size(), 1U);
+  EXPECT_EQ(listed->front().id, good->id);
+  const auto one = store_->get(bad->id);
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().code, ErrorCode::kDamagedStore);
+  EXPECT_NE(one.error().detail.find(bad->id), std::string::npos);
+}
+
 TEST_F(PostgresJobStoreTest, SeveralProcessesMayOpenItAtOnce) {
   schema_->run("DROP TABLE slipway_jobs, slipway_series, slipway_schema");
   std::vector<std::future<bool>> opened;

@@ -106,7 +106,7 @@ TEST(SqliteJobStore, AFileThatIsNoDatabaseIsAnErrorAndNotOverwritten) {
   testing::write_file(path, notes);
   const auto store = open_sqlite_job_store(path);
   ASSERT_FALSE(store);
-  EXPECT_EQ(store.error().code, ErrorCode::kStorage);
+  EXPECT_EQ(store.error().code, ErrorCode::kDamagedStore);
   EXPECT_EQ(testing::file_bytes(path), notes);
   EXPECT_FALSE(open_sqlite_job_store(folder.path() / "no" / "such" / "folder" / "jobs.sqlite"));
 }

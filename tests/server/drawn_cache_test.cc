@@ -6,7 +6,7 @@ namespace slipway::server {
 namespace {
 
 TEST(DrawnCache, DrawsOnceAndForgetsWhatWasAskedForLongestAgo) {
-  DrawnCache cache(10);
+  DrawnCache<std::string> cache(10);
   int drawn = 0;
   const auto ask = [&](const std::string& key, std::size_t bytes) {
     return **cache.get(key, [&]() -> Result<std::string> {
@@ -26,7 +26,7 @@ TEST(DrawnCache, DrawsOnceAndForgetsWhatWasAskedForLongestAgo) {
 }
 
 TEST(DrawnCache, KeepsNeitherErrorsNorWhatIsTooLarge) {
-  DrawnCache cache(10);
+  DrawnCache<std::string> cache(10);
   int asked = 0;
   for (int k = 0; k < 2; ++k) {
     EXPECT_FALSE(cache.get("e", [&]() -> Result<std::string> {

@@ -134,7 +134,7 @@ TEST(HttpLimits, ABodyThatIsNotThereInTimeGets408) {
 
 TEST(HttpLimits, ABodyThatComesSteadilyIsWaitedForAndOneThatDripsIsNot) {
   HttpOptions options = quick();
-  options.min_body_bytes_per_s = 10'000;
+  options.min_bytes_per_s = 10'000;
   const TestServer s(options);
   RawClient steady(s.port);
   const std::string body = '"' + std::string(9'998, 'x') + '"';
@@ -187,6 +187,32 @@ TEST(HttpLimits, AClientThatDoesNotTakeItsAnswerIsClosed) {
   client.send(get("/large"));
   std::this_thread::sleep_for(milliseconds(900));
   EXPECT_EQ(s.server.counters().open_connections, 0U);
+}
+
+TEST(HttpLimits, AnAnswerThatIsTakenSteadilyIsSentToItsEnd) {
+  const TestServer s(quick());  // its deadline is 400 ms
+  RawClient client(s.port);
+  client.send(get("/large"));
+  std::size_t taken = 0;
+  const auto begun = Clock::now();
+  for (std::string some = client.read_some(); !some.empty(); some = client.read_some(milliseconds(200))) {
+    taken += some.size();
+    std::this_thread::sleep_for(milliseconds(8));
+  }
+  EXPECT_GT(taken, std::size_t{8} << 20);
+  EXPECT_GT(Clock::now() - begun, milliseconds(1'000)) << "it must take longer than the deadline";
+}
+
+TEST(HttpLimits, AnAnswerForWhichThereIsNoRoomIsRefusedBeforeItsHead) {
+  HttpOptions options;
+  options.max_buffered_bytes = std::size_t{10} << 20;
+  const TestServer s(options);
+  RawClient slow(s.port);
+  slow.send(get("/large"));
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_EQ(ask_once(s.port, get("/large")).status, 503);
+  EXPECT_EQ(ask_once(s.port, get("/pieces/100")).status, 200) << "there is room for a piece";
+  EXPECT_EQ(ask_once(s.port, get("/healthz")).status, 200);
 }
 
 TEST(HttpLimits, ConnectionsOverTheCapOfTheirAddressGet503AndTheOthersGoOn) {

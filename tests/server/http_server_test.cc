@@ -372,7 +372,7 @@ TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
                                  --now;
                                  return HttpResponse{204, "", "", {}};
                                },
-                               true}});
+                               Threads::kHeavy}});
   const auto port = server.start();
   ASSERT_TRUE(port);
   std::vector<std::unique_ptr<RawClient>> clients;
@@ -396,7 +396,7 @@ TEST(HttpServer, APromptRouteWaitsForNoOther) {
   HttpServer server(options, {{.method = "GET",
                                .pattern = "/healthz",
                                .handle = [none](const HttpRequest&) { return none; },
-                               .prompt = true},
+                               .threads = Threads::kPrompt},
                               {"GET", "/poll", [&, none](const HttpRequest&) {
                                  ++waiting;
                                  while (held) std::this_thread::sleep_for(milliseconds(1));

@@ -103,6 +103,11 @@ RawClient::Answer RawClient::ask(std::string_view request) {
   return read_answer(request.starts_with("HEAD "));
 }
 
+std::string RawClient::read_some(std::chrono::milliseconds patience) {
+  receive(Clock::now() + patience);
+  return std::exchange(input_, {});
+}
+
 std::string RawClient::read_rest(std::chrono::milliseconds patience) {
   for (const auto until = Clock::now() + patience; receive(until);) {
   }

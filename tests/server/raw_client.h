@@ -34,6 +34,8 @@ class RawClient {
   Answer read_answer(bool to_head_request = false,
                      std::chrono::milliseconds patience = std::chrono::seconds(5));
   Answer ask(std::string_view request);
+  // What has come, or comes within this time: 64 kB at most.
+  std::string read_some(std::chrono::milliseconds patience = std::chrono::seconds(5));
   // All that comes until the server closes.
   std::string read_rest(std::chrono::milliseconds patience = std::chrono::seconds(5));
 

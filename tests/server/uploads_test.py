@@ -223,7 +223,8 @@ class Uploads(unittest.TestCase):
         self.assertEqual(self.ask("/v1/predictions", request, 422)["faults"][0]["pointer"], "/terrain")
         self.assertEqual(self.server.ask("DELETE", "/v1/terrains/gale")[0], 403)
 
-    def test_what_somebody_else_sent_stays(self):
+    def server_with_tokens(self):
+        """The headers of two operators, a viewer and an administrator."""
         self.server.stop()
         entries, tokens = "", {}
         for name, role in (("ann", "operator"), ("bob", "operator"), ("eve", "viewer"), ("root", "admin")):
@@ -232,6 +233,58 @@ class Uploads(unittest.TestCase):
             entries += done.stdout
         (self.path / "tokens.toml").write_text(entries)
         self.server = Server(self.path, "--tokens", str(self.path / "tokens.toml"))
+        return tokens
+
+    def test_a_name_belongs_to_who_made_it(self):
+        who = self.server_with_tokens()
+        ask = lambda method, path, by, body=None: self.server.ask(method, path, body, {"Prefer": "wait=60", **who[by]})
+        sent = json.loads(self.send(ELEVATION.read_bytes(), "dem.tif", **who["ann"])[2])["id"]
+        make = lambda by, **more: ask("POST", "/v1/terrains", by, {"name": "site", "elevation": sent, **more})
+        version = lambda: next(t["version"] for t in json.loads(ask("GET", "/v1/terrains", "eve")[2])["terrains"]
+                               if t["name"] == "site")
+        # What bob makes of ann's map is bob's.
+        self.assertEqual(make("bob")[0], 200)
+        first = version()
+        status, _, body = make("ann", gravity_m_s2=1.62)
+        self.assertEqual((status, json.loads(body)["faults"][0]["pointer"]), (409, "/name"), body)
+        self.assertEqual((version(), ask("DELETE", "/v1/terrains/site", "ann")[0]), (first, 403))
+        self.assertEqual(make("bob", gravity_m_s2=1.62)[0], 200)
+        second = version()
+        self.assertEqual(make("root")[0], 200)
+        self.assertEqual(len({first, second, version()}), 2, "the same files are the same version")
+        self.assertEqual(make("bob")[0], 409, "it is the administrator's now")
+
+        archive = json.loads(self.send(tar_of(campaign_files()), "p04.tgz", **who["ann"])[2])["id"]
+        name = json.loads(ask("POST", "/v1/drive-campaigns", "bob", {"upload": archive})[2])["name"]
+        more = ask("POST", "/v1/drive-campaigns", "ann", {"follows": name, "drives": [appended_drive("D900")]})[2]
+        self.assertEqual(ask("DELETE", "/v1/drive-campaigns/" + name, "ann")[0], 403)
+        self.assertEqual(ask("DELETE", "/v1/drive-campaigns/" + name, "bob")[0], 204)
+        self.assertEqual(ask("DELETE", "/v1/drive-campaigns/" + json.loads(more)["name"], "ann")[0], 204)
+
+    def test_a_job_is_not_done_on_other_ground_than_it_was_asked_about(self):
+        elevation = self.sent(ELEVATION.read_bytes(), "dem.tif")
+        extent = self.ask("/v1/terrains", {"name": "site", "elevation": elevation})["extent"]
+        x, y = 0.5 * (extent["west_m"] + extent["east_m"]), 0.5 * (extent["south_m"] + extent["north_m"])
+        request = {"terrain": "site", "rover": "mer-class", "path": [{"x_m": x, "y_m": y}, {"x_m": x + 5, "y_m": y}]}
+        before = self.ask("/v1/predictions", request)["provenance"]["terrain_version"]
+        self.server.stop()
+        self.server = Server(self.path, "--no-workers")
+        batch = {"kind": "prediction", "requests": [request, {**request, "terrain": "gale"}]}
+        places = [self.server.ask("POST", path, asked, {"Prefer": "respond-async"})[1]["Location"]
+                  for path, asked in (("/v1/predictions", request), ("/v1/batches", batch))]
+        self.server.stop()
+        described = self.path / "uploads" / "terrains" / "site" / "terrain.json"
+        described.write_text(described.read_text().replace("3.71", "1.62"))
+        self.server = Server(self.path)
+        for place in places:
+            self.assertEqual(self.server.end_of(place)["state"], "failed")
+            status, _, body = self.server.ask("GET", place + "/result")
+            self.assertEqual(status, 409, body)
+            self.assertIn(before, json.loads(body)["detail"])
+        self.assertNotEqual(self.ask("/v1/predictions", request)["provenance"]["terrain_version"], before)
+
+    def test_what_somebody_else_sent_stays(self):
+        tokens = self.server_with_tokens()
         self.assertEqual(self.send(b"x", "a.csv", "text/csv")[0], 401)
         self.assertEqual(self.send(b"x", "a.csv", "text/csv", **tokens["eve"])[0], 403)
         status, headers, body = self.send(b"x", "a.csv", "text/csv", **tokens["ann"])

@@ -104,7 +104,7 @@ export interface paths {
         put?: never;
         /**
          * Make a terrain of maps that were sent
-         * @description A job of seconds to minutes: what slipway terrain import does. All that is wrong with the maps is told at once; "fix" mends what can be mended without a guess. The terrain is there for requests when the job has ended.
+         * @description A job of seconds to minutes: what slipway terrain import does. All that is wrong with the maps is told at once; "fix" mends what can be mended without a guess. The terrain is there for requests when the job has ended, and is the asker's: a terrain of this name that is their own is replaced, of somebody else only by an administrator (409). What ships is not replaced (422).
          */
         post: operations["import_terrain"];
         delete?: never;
@@ -1179,6 +1179,8 @@ export interface components {
                 ahead: number;
                 /** @description Until it begins, by what the last jobs of each kind took [s]; not there where a kind has none */
                 estimated_wait_s?: number;
+                /** @description Why not all workers run; not there where they do */
+                shortage?: string;
             };
             /** @description Of a part: the job that it is a part of */
             whole?: string;
@@ -1227,6 +1229,9 @@ export interface components {
             /** @constant */
             fidelity?: "quasi_static";
             terrain_title?: string;
+            /** @description Another one means that other bytes are under the terrain's name */
+            terrain_version?: string;
+            /** @description Of the heights that were read */
             terrain_fingerprint?: string;
             crs_name?: string;
             body?: string;
@@ -3815,6 +3820,8 @@ export interface components {
         Terrain: {
             name?: string;
             title?: string;
+            /** @description Another one means that other bytes are under this name */
+            version?: string;
             extent?: {
                 west_m?: number;
                 south_m?: number;

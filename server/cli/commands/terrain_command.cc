@@ -70,7 +70,9 @@ void add_import(CLI::App& terrain, std::function<int()>& run) {
   command->add_flag("--fix", order.fix,
                     "mend what can be mended: degrees, feet, south-up or rotated grids, lengths that are not "
                     "the ground's");
-  command->add_flag("--replace", order.replace, "replace a terrain of this name");
+  command->add_flag_callback(
+      "--replace", [&order] { order.may_replace = [](const auto& /*there*/) { return true; }; },
+      "replace a terrain of this name");
   command->add_flag("--json", options->json, "print JSON (terrain-import/1)");
   add_data_option(*command, options->data, "rovers, soils and terrains");
   command->footer(

@@ -34,16 +34,17 @@ Result<api::json::AnswerMap> map_of(Inquiry& service, const std::string& terrain
 Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool geopackage, bool lonlat) {
   const auto map = map_of(service, api::json::terrain_of_answer(answer));
   if (!map) return fail(map.error());
-  std::string stations;
+  api::json::TablePages stations;
   if (api::json::is_thinned(answer)) {
     auto all = service.stations();
     if (!all) return fail(all.error());
-    stations = *std::move(all);
+    stations = api::json::in_one_page(*std::move(all));
   }
-  if (geopackage) return api::json::answer_geopackage(answer, *map, stations);
+  if (geopackage) return api::json::answer_geopackage(answer, *map, std::move(stations));
   using api::json::VectorCoordinates;
-  return api::json::answer_geojson(
-      answer, *map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
+  return api::json::answer_geojson(answer, *map,
+                                   lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap,
+                                   std::move(stations));
 }
 
 Result<std::string> commands_of(const std::string& answer, const Pictures& pictures) {
