@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -114,6 +115,17 @@ void RequestCheck::zones(const std::vector<planner::Polygon>& zones, std::string
   }
 }
 
+// Of the soils that the drive may meet.
+void RequestCheck::doubled_closures(const DriveAssumptions& drive) {
+  std::set<std::string> met{drive.unknown_soil};
+  if (const Legend* legend = site_ != nullptr ? site_->description().legend(drive.legend) : nullptr)
+    for (const dem::SoilClass& row : legend->classes) met.insert(row.soil.value_or(""));
+  for (const std::string& name : met)
+    if (const auto soil = catalogue_.soils.find(name); soil != catalogue_.soils.end())
+      for (Fault& fault : moved_under("/effects", sim::doubled(drive.effects, soil->second.mean, name)))
+        add(ErrorCode::kInvalidRequest, fault.pointer, std::move(fault.message));
+}
+
 void RequestCheck::drive(const DriveAssumptions& drive) {
   if (!drive.unknown_soil.empty() && !already_faulty("/unknown_soil") &&
       !catalogue_.soils.contains(drive.unknown_soil))
@@ -139,6 +151,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
       add(ErrorCode::kInvalidRequest, "/effects", "the rover with these effects: " + fault.message);
     }
   }
+  if (!already_faulty("/effects")) doubled_closures(drive);
   if (rover_ != nullptr && drive.conditions.motor_temp_c && !already_faulty("/effects")) {
     if (const auto fault = temperature_without_effect(*rover_, drive.effects))
       add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);

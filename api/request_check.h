@@ -47,6 +47,7 @@ class RequestCheck {
   void drive_so_far(const DriveAssumptions& drive);
   void departure(const DriveAssumptions& drive);
   void relief(const DriveAssumptions& drive);
+  void doubled_closures(const DriveAssumptions& drive);
   void add(ErrorCode code, std::string pointer, std::string message);
   bool already_faulty(std::string_view pointer) const;
 

@@ -132,6 +132,9 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
     check.add("/soil", unknown_soil(catalogue, answer.request.soil));
   } else {
     answer.sweep.rig.soil = soil->second.mean;
+    for (Fault& fault : moved_under(
+             "/effects", sim::doubled(answer.request.effects, soil->second.mean, answer.request.soil)))
+      check.add(fault.pointer, std::move(fault.message));
   }
   answer.sweep.rig.soil_format = catalogue.soil_format;
   answer.sweep.set = answer.request.set;

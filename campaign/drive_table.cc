@@ -170,6 +170,7 @@ std::optional<double> motor_temp_c(const DriveTable& table, const DriveEntry& en
 
 sim::RoverModel driven_rover(const DriveTable& table, const DriveEntry& entry) {
   sim::RoverModel rover = *table.rover;
+  rover.drive.currents_by_format = true;
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), rover);
   sim::fail_wheels(rover, entry.failed_wheels, {.motor_temp_c = motor_temp_c(table, entry)});
   return rover;

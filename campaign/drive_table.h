@@ -92,7 +92,8 @@ std::int16_t class_elsewhere(const TableTerrain& terrain);
 // Of the drive motors: the entry's, else the table's.
 std::optional<double> motor_temp_c(const DriveTable& table, const DriveEntry& entry);
 
-// The rover as it really drives an entry: effects at work, wheels failed.
+// The rover as it really drives an entry: effects at work, wheels failed, and the currents that the format
+// of campaigns defines.
 sim::RoverModel driven_rover(const DriveTable& table, const DriveEntry& entry);
 
 }  // namespace slipway::campaign

@@ -162,6 +162,7 @@ DriveCampaign with_belief(DriveCampaign campaign, const CorrectedBelief& belief)
   // Its motors made these drives too.
   rover->drive.max_wheel_rate_rad_s =
       std::max(rover->drive.max_wheel_rate_rad_s, campaign.rover->drive.max_wheel_rate_rad_s);
+  rover->drive.currents_by_format = campaign.rover->drive.currents_by_format;
   campaign.rover = std::move(rover);
   for (std::size_t s = 0; s < campaign.soils.size(); ++s) campaign.soils[s].soil = belief.soils[s].mean;
   return campaign;

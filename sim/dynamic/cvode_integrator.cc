@@ -42,6 +42,13 @@ struct CvodeIntegrator::Solver {
 
 namespace {
 
+// The step's equations are solved by a Newton iteration with an old Jacobian. What it leaves over alternates
+// from step to step and is raised 2^order - 1 times by the next step's prediction: at order 5, and at CVODE's
+// own share of a tenth of the tolerance, it holds itself at the tolerance and the steps at a fiftieth of the
+// length that the motion asks for.
+constexpr int kMaxOrder = 3;
+constexpr double kSolvedShare = 0.003;
+
 // No exception may cross a callback of a C library.
 template <class Call>
 int guarded(Call call) noexcept {
@@ -157,6 +164,8 @@ CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, 
   require(CVodeSetUserData(s.cvode, &s), "user data");
   require(CVodeSetLinearSolver(s.cvode, s.linear, s.matrix), "linear solver");
   require(CVodeSetMaxStep(s.cvode, max_step_s), "longest step");
+  require(CVodeSetMaxOrd(s.cvode, kMaxOrder), "order");
+  require(CVodeSetNonlinConvCoef(s.cvode, kSolvedShare), "solution of a step");
   require(CVodeSetMaxConvFails(s.cvode, 30), "convergence failures");
   require(CVodeSetMaxErrTestFails(s.cvode, 30), "error test failures");
   if (s.system.event_count > 0) {

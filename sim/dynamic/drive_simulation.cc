@@ -175,6 +175,7 @@ Result<void> DriveSimulation::drive_piece(const DriveLeg& leg, const Pose2& leg_
   checked_s_ = now_s_;
   checked_share_ = 0.0;
   half_share_.reset();
+  before_halt_.reset();
   const double share_before = dynamics_.place(state()).share;
   // The steps stop at the kinks of the rates' profile, so that no step smooths one over.
   while (!ended_ && now_s_ < driver.end_s()) {
@@ -188,6 +189,7 @@ Result<void> DriveSimulation::drive_piece(const DriveLeg& leg, const Pose2& leg_
     trim(driver, leg);
     if (!half_share_ && now_s_ >= 0.5 * (driver.ramped_s() + driver.cruised_s()))
       half_share_ = dynamics_.place(state()).share;
+    if (!before_halt_ && now_s_ >= driver.cruised_s()) before_halt_ = dynamics_.sample(now_s_, state());
     check_progress(leg);
   }
   // With pose feedback a leg ends only where its length is done, so that there is nothing to check.

@@ -49,7 +49,7 @@ class DriveSimulation {
   double leg_way_m(const DriveLeg& leg, double share) const;
   void check_leg(const DriveLeg& leg, double share_before);
   void check_progress(const DriveLeg& leg);
-  std::string stuck_text(const std::string& what);
+  std::string stuck_text(const std::string& what, const DriveSample& sample) const;
   std::string stall_text() const;
   void end(DriveEnd how, std::string reason);
   DynamicDrive finish();
@@ -76,7 +76,8 @@ class DriveSimulation {
   double trim_rad_ = 0.0;
   std::optional<double> trimmed_share_;  // of the leg, when the trim was last set
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
-  std::optional<double> half_share_;  // of the leg, when half of its cruise was over
+  std::optional<double> half_share_;        // of the leg, when half of its cruise was over
+  std::optional<DriveSample> before_halt_;  // of the leg, when its cruise was over
 };
 
 }  // namespace slipway::sim

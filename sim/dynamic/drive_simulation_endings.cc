@@ -76,9 +76,9 @@ void DriveSimulation::check_leg(const DriveLeg& leg, double share_before) {
   };
   const std::string of_leg = fmt::format("leg {} of {}", leg_ + 1, legs_.size());
   if (stuck(share_before, 1.0)) {
-    end(DriveEnd::kImmobilised, stuck_text("no progress on " + of_leg));
+    end(DriveEnd::kImmobilised, stuck_text("no progress on " + of_leg, *before_halt_));
   } else if (half_share_ && stuck(*half_share_, 0.5)) {
-    end(DriveEnd::kImmobilised, stuck_text("no progress on the second half of " + of_leg));
+    end(DriveEnd::kImmobilised, stuck_text("no progress on the second half of " + of_leg, *before_halt_));
   }
 }
 
@@ -95,13 +95,13 @@ void DriveSimulation::check_progress(const DriveLeg& leg) {
       (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
   if (leg_way_m(leg, commanded) < kMinCommanded_radii * rover_.smallest_wheel_radius_m()) return;
   if (share - checked_share_ < kMinProgress * commanded)
-    end(DriveEnd::kImmobilised, stuck_text(fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
+    end(DriveEnd::kImmobilised, stuck_text(fmt::format("no progress for {:.0f} s", now_s_ - checked_s_),
+                                           dynamics_.sample(now_s_, state())));
   checked_s_ = now_s_;
   checked_share_ = share;
 }
 
-std::string DriveSimulation::stuck_text(const std::string& what) {
-  const DriveSample sample = dynamics_.sample(now_s_, state());
+std::string DriveSimulation::stuck_text(const std::string& what, const DriveSample& sample) const {
   std::size_t worst = 0;
   for (std::size_t k = 0; k < sample.wheels.size(); ++k)
     if (sample.wheels[k].sinkage_m > sample.wheels[worst].sinkage_m) worst = k;

@@ -160,13 +160,13 @@ void RoverDynamics::find_kinematics(const double* y) {
     at.axle.noalias() = R_MB_ * dynamics_.axis_B(joint);
     at.velocity.noalias() = R_MB_ * dynamics_.point_velocity(joint, p_B);
     at.rate_rad_s = rates_[joint];
+    at.braked = braked_ && rover_.wheels[k].drive == WheelDrive::kDriven;
     at.slip_x = y[slips_at_ + 2 * k];
     at.slip_y = y[slips_at_ + 2 * k + 1];
   }
 }
 
 bool RoverDynamics::find_contacts(const double* y) {
-  if (!std::all_of(y, y + size_, [](double value) { return std::isfinite(value); })) return false;
   unpack(y);
   find_kinematics(y);
   if (contacts_.find(ground_, ruts_, kinematics_, contact_)) return true;
@@ -269,8 +269,9 @@ bool RoverDynamics::look_at_grounds(const double* y) {
 }
 
 bool RoverDynamics::derivative(double t, const double* y, double* rate) {
-  if (!find_contacts(y)) return false;
+  if (!std::all_of(y, y + size_, [](double value) { return std::isfinite(value); })) return false;
   set_commanded(t, y);
+  if (!find_contacts(y)) return false;
   add_suspension_torques();
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     const int joint = bodies_.wheel[k];

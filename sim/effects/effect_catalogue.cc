@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/soil/soil_field.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -41,6 +43,22 @@ void for_each_on(std::span<const EffectSetting> settings, const Act& act) {
     if (setting == settings.end() || !setting->on) continue;
     act(effect, values_of(effect, *setting));
   }
+}
+
+// The optional field that a soil has already and that one number of the effect, the others neutral, changes
+// in it and in a soil that has none; null where there is none.
+const SoilField* field_of_its_own(const Effect& effect, std::size_t number, const Soil& soil) {
+  std::vector<double> values;
+  for (const Field& field : effect.fields) values.push_back(field.neutral.value_or(field.initial));
+  values[number] = effect.fields[number].initial;
+  Soil bare, changed, own = soil, both = soil;
+  effect.on_soil(values, changed);
+  effect.on_soil(values, both);
+  for (const SoilField& field : soil_fields())
+    if (field.presence == FieldPresence::kOptional && field.number(changed) != field.number(bare) &&
+        field.number(own) != field.number(bare) && field.number(both) != field.number(own))
+      return &field;
+  return nullptr;
 }
 
 }  // namespace
@@ -91,6 +109,30 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const Rove
           {fmt::format("/{}/parameters/{}", i, effect->wheel_field),
            fmt::format("{} = {:g}, must be a whole number up to {:g}: {} has {} wheels", effect->wheel_field,
                        wheel->second, last, rover.name, rover.wheels.size())});
+  }
+  return faults;
+}
+
+std::vector<Fault> doubled(std::span<const EffectSetting> settings, const Soil& soil,
+                           std::string_view soil_name) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const Effect* const effect = find_effect(settings[i].name);
+    if (effect == nullptr || effect->on_soil == nullptr || effect->region || !settings[i].on) continue;
+    for (std::size_t f = 0; f < effect->fields.size(); ++f) {
+      const Field& field = effect->fields[f];
+      if (!field.neutral || settings[i].parameters.contains(std::string(field.name))) continue;
+      const SoilField* const own = field_of_its_own(*effect, f, soil);
+      if (own == nullptr) continue;
+      Soil copy = soil;
+      faults.push_back(
+          {fmt::format("/{}/name", i),
+           fmt::format(
+               "{} would add {} = {:g} to what soil {} has already ({} = {:g}): state {} to add to it, "
+               "or leave the effect out",
+               effect->name, field.name, field.initial, soil_name, own->field.name, own->number(copy),
+               field.name)});
+    }
   }
   return faults;
 }

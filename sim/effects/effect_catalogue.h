@@ -24,6 +24,11 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings);
 // What is wrong with settings (without faults of their own) for this rover: a wheel that it does not have.
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const RoverModel& rover);
 
+// What settings (without faults of their own) would add, by numbers that nobody stated, to what a soil has
+// already: an effect's initial numbers describe a soil that has none of its kind.
+std::vector<Fault> doubled(std::span<const EffectSetting> settings, const Soil& soil,
+                           std::string_view soil_name);
+
 // The rover's own settings with the request's added: a name in the request replaces the rover's, `on` = false
 // takes it out. Only settings that are on are left.
 std::vector<EffectSetting> in_force(std::span<const EffectSetting> rovers,

@@ -5,12 +5,16 @@
 namespace slipway::sim {
 namespace {
 
+// What is stiffer is shorter in contact: as (1 + s)^(-1 / (2 n + 1)) by Bekker's sinkage, s the stiffening.
+// With less strengthening than a half a track would lose more by that than it gains, and a second pass pull
+// less than the first, against what Holm found: (1 + s / 2) (1 + s)^(-1 / (2 n + 1)) >= 1 for every s where n
+// >= 1 / 2.
 constexpr std::array kFields{
     Field{"stiffening", "1", "the soil in a track is 1 + this times as stiff as fresh soil", 0.0, 5.0, 0.9,
           0.0},
     Field{"strengthening", "1",
           "of that stiffening, the share by which the track is more cohesive and stiffer in shear", 0.0, 1.0,
-          0.0, 0.0},
+          0.5, 0.0},
 };
 
 void change(std::span<const double> values, Soil& soil) {
@@ -27,7 +31,7 @@ std::vector<EffectVariant> variants(const RoverModel& /*rover*/) {
 }
 
 EffectParameters hidden(const HiddenDraw& draw) {
-  return {{"stiffening", 0.9 * draw.size}};
+  return {{"stiffening", 0.9 * draw.size}, {"strengthening", 0.0}};
 }
 
 }  // namespace

@@ -12,14 +12,15 @@ double sign_of(double rate, double standstill) {
   return rate > 0.0 ? 1.0 : rate < 0.0 ? -1.0 : 0.0;
 }
 
-// Current that turns the motor and gear at a rate without any torque at the wheel.
-double idle_current_a(const DriveMotor& drive, double rate, double standstill = 0.0) {
-  const double sign = sign_of(rate, standstill);
-  const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio;
-  const double gearbox = drive.gear_friction_nm * sign + drive.gear_viscous_nms_rad * rate;
-  return gearbox / (geared * drive.gear_efficiency) +
-         drive.damping_nms_rad * drive.gear_ratio * rate / drive.torque_constant_nm_per_a +
+// Current that turns the motor at a rate without any torque at its gear.
+double idle_current_a(const DriveMotor& drive, double rate, double sign) {
+  return drive.damping_nms_rad * drive.gear_ratio * rate / drive.torque_constant_nm_per_a +
          drive.no_load_current_a * sign;
+}
+
+// Friction of the gearbox, at the wheel.
+double gearbox_nm(const DriveMotor& drive, double rate, double sign) {
+  return drive.gear_friction_nm * sign + drive.gear_viscous_nms_rad * rate;
 }
 
 }  // namespace
@@ -40,8 +41,13 @@ DriveMotor at_temperature(const DriveMotor& drive, double motor_temp_c) {
 
 MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_rate_rad_s) {
   const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio;
+  const double sign = sign_of(wheel_rate_rad_s, 0.0);
+  const double at_gear = torque_nm + gearbox_nm(drive, wheel_rate_rad_s, sign);
+  const bool driven_back = at_gear * sign < 0.0 && !drive.currents_by_format;
   MotorState state;
-  state.current_a = torque_nm / (geared * drive.gear_efficiency) + idle_current_a(drive, wheel_rate_rad_s);
+  state.current_a =
+      at_gear / (driven_back ? geared / drive.gear_efficiency : geared * drive.gear_efficiency) +
+      idle_current_a(drive, wheel_rate_rad_s, sign);
   state.voltage_v = drive.resistance_ohm.value_or(0.0) * state.current_a + geared * wheel_rate_rad_s;
   state.electric_power_w = std::max(0.0, state.voltage_v * state.current_a);
   return state;
@@ -50,8 +56,12 @@ MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_r
 double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s,
                             double standstill_rad_s) {
   const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio;
-  return (current_a - idle_current_a(drive, wheel_rate_rad_s, standstill_rad_s)) * geared *
-         drive.gear_efficiency;
+  const double sign = sign_of(wheel_rate_rad_s, standstill_rad_s);
+  const double motor_a = current_a - idle_current_a(drive, wheel_rate_rad_s, sign);
+  double passed = drive.gear_efficiency;
+  if (motor_a * sign < 0.0 && !drive.currents_by_format)
+    passed += std::abs(sign) * (1.0 / drive.gear_efficiency - drive.gear_efficiency);
+  return motor_a * geared * passed - gearbox_nm(drive, wheel_rate_rad_s, sign);
 }
 
 double winding_resistance_ohm(const DriveMotor& drive) {

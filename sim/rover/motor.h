@@ -20,6 +20,9 @@ struct DriveMotor {
   // gearbox_friction).
   double gear_friction_nm = 0.0;
   double gear_viscous_nms_rad = 0.0;  // at the wheel
+  // Its currents are those that drive-campaign/1 defines: gear_efficiency divides a torque of either sign. A
+  // wheel that the ground drives then gives back more than it got.
+  bool currents_by_format = false;
   double rotor_inertia_kg_m2 = 4e-7;  // of the motor's shaft, before the gear; read by the dynamic level
 
   // Change per kelvin above the reference temperature (effect motor_temperature): the torque constant falls
@@ -37,16 +40,18 @@ DriveMotor at_temperature(const DriveMotor& drive, double motor_temp_c);
 
 // A drive motor in steady motion: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign format].
 //
-//   I = (T + T_g sign(w) + B w) / (k_t N eta) + b N w / k_t + I_0 sign(w)      current, A
+//   T' = T + T_g sign(w) + B w                               torque at the gear's output, N m
+//   I = T' / (k_t N eta) + b N w / k_t + I_0 sign(w)         current, A, where the motor drives: T' w >= 0
+//   I = T' eta / (k_t N) + b N w / k_t + I_0 sign(w)         where the ground does: T' w < 0
 //   V = R I + k_t N w                                        terminal voltage, V (R = 0 where none is given)
 //
 //   T    torque at the wheel, N m        w    rate of the wheel, rad/s        k_t  torque constant, N m/A
 //   N    gear ratio    eta  gear efficiency    I_0  no-load current, A        b    damping at the shaft
 //   T_g, B  friction and viscous friction of the gearbox, at the wheel
 //
-// As in the format, eta divides a torque of either sign: for a wheel that the ground drives this gives more
-// current back than a lossy gear would pass (T eta in place of T / eta), so braking currents are too
-// negative; the drives of docs/validation.md's Cuadriga gave back none within the error.
+// The gear loses the same share either way, so that |V I| never exceeds |T w| where the ground drives. The
+// drives of docs/validation.md's Cuadriga gave back nothing within the error. Properties: continuous in the
+// torque, and rising with it.
 struct MotorState {
   double current_a = 0.0;
   double voltage_v = 0.0;
@@ -55,8 +60,9 @@ struct MotorState {
 
 MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_rate_rad_s);
 
-// The inverse: the torque at the wheel that a current at a rate means. Dry friction comes in over
-// `standstill_rad_s` as tanh(w / standstill) where that is above 0, for motions through rest.
+// The inverse: the torque at the wheel that a current at a rate means. Dry friction and the gear's other
+// efficiency come in over `standstill_rad_s` as tanh(w / standstill) where that is above 0, for motions
+// through rest, where the gear passes a torque as if the motor drove.
 double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s,
                             double standstill_rad_s = 0.0);
 

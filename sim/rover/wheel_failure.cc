@@ -12,8 +12,8 @@ std::string_view describe(WheelFailure failure) {
 }
 
 double unpowered_drag_nm(const DriveMotor& drive) {
-  return drive.no_load_current_a * drive.torque_constant_nm_per_a * drive.gear_ratio * drive.gear_efficiency +
-         drive.gear_friction_nm;
+  constexpr double kSlowly_rad_s = 1e-9;
+  return -torque_of_current_nm(drive, 0.0, kSlowly_rad_s);
 }
 
 void fail_wheel(RoverModel& rover, std::size_t wheel, WheelFailure failure,

@@ -26,7 +26,8 @@ const std::vector<std::string_view>& wheel_failure_names();
 
 // Torque at the wheel that turns gear and unpowered motor, by their dry friction alone:
 //
-//   T = I_0 k_t N eta + T_g      (symbols: motor.h)
+//   T = I_0 k_t N / eta + T_g      (symbols and the other equation, of DriveMotor::currents_by_format:
+//   motor.h)
 double unpowered_drag_nm(const DriveMotor& drive);
 
 // The rover with that failure of a wheel; its other wheels stay. The motor's friction is that at the drive's

@@ -17,9 +17,19 @@ namespace slipway::sim {
 //
 // k h i / (1 - i) is Reece's slip sinkage of grousers: each carries out the soil between two of them [Reece
 // 1965]; falling back ends it at fast slip. The wheel stands in the pit that it has dug: its contact is that
-// of a wheel on level ground at the pit's depth, so that digging lengthens no contact and raises no pull. It
-// costs by what stands before the deeper wheel's wall. Properties: 0 without slip and in skid; rises with
-// slip and with the cleats' height; bounded by d r + k h m times the last factor.
+// of a wheel on level ground at the pit's depth, so that digging lengthens no contact and raises no pull.
+//
+// To carry that soil out costs the passive pressure of so much loose soil before the front
+// (bulldozing_law.h), which is the work to lift it and to break it up on every metre, and its friction along
+// the rim:
+//
+//   P_d = gamma b z_d^2 N_phi / 2, taken from the pull where the wheel moves (front_share);  T_d = mu r P_d
+//
+//   gamma  unit weight, N/m^3    b  width, m    mu  rim's share of tan(phi)
+//
+// Cohesion is not in it: what the rim breaks it breaks by the shear stress that the contact has already.
+// Properties of z_d: 0 without slip and in skid; rises with slip and with the cleats' height; bounded by d r
+// + k h m times the last factor. P_d and T_d rise with its square.
 template <class V>
 V dug_depth_m(const V& rim_dug_m, const V& rim_slip, const V& cleat_dug_m, const V& per_cleat_limit,
               const V& sideways, const V& forward, const V& speed) {

@@ -63,9 +63,8 @@ Result<double> balanced_entry_angle_rad(const WheelGeometry& wheel, const Soil& 
   Bracket bracket{.high = max_entry_angle_rad(soil)};
   double theta =
       std::clamp(entry_angle_rad(wheel.radius_m, bekker_sinkage_m(wheel, soil, load_n)), 0.02, 1.2);
-  // A crust, and a braked wheel whose rim is drawn down by the soil's grip, carry most somewhere above the
-  // axle.
-  // The same holds for wheels that dig or plough.
+  // A crust, and a braked wheel whose greatest stress is far ahead, carry most somewhere above the axle. The
+  // same holds for wheels that dig or plough.
   if (soil.crust.strength_pa > 0.0 || soil.has_closures() || surplus(bracket.high) < 0.0) {
     const Result<Bracket> found = first_bearing(wheel, soil, load_n, motion);
     if (!found) return fail(found.error());

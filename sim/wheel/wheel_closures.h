@@ -63,6 +63,18 @@ void close_angles(const ClosureValues<V>& by, const ClosedContact<V>& closed, Co
                                                     closed.in.cohesion, closed.tan_phi);
 }
 
+// Takes what it costs to carry out the soil that was dug (digging_law.h).
+template <class V>
+void add_digging(const ClosedContact<V>& closed, LaneForces<V>& f) {
+  const WheelValues<V>& in = closed.in;
+  const V speed = sqrt(closed.speed * closed.speed + V(kStandingSpeedRatio * kStandingSpeedRatio));
+  const V carried =
+      front_share(in.forward / speed) *
+      passive_pressure_n(in.width, min(closed.dug_m, closed.depth_m), in.unit_weight, V(0.0), closed.tan_phi);
+  f.pull -= carried;
+  f.torque += in.rim_friction * closed.tan_phi * carried * in.radius;
+}
+
 // Adds what is pushed before the front and the wall, and the wall's friction, which acts at a third of the
 // depth above the lowest point: where the pressure has its centre.
 template <class V>

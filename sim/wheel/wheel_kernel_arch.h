@@ -181,6 +181,7 @@ LaneForces<Pack> with_closures(const WheelValues<Pack>& in, const ClosureValues<
   ContactAngles<Pack> at = contact_angles(closed.in, closed.sin_f, closed.cos_f, closed.tan_phi);
   close_angles(by, closed, at);
   LaneForces<Pack> f = forces(closed.in, at);
+  add_digging(closed, f);
   add_ploughing(closed, by, f);
   return f;
 }

@@ -1,8 +1,12 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/angle.h"
+#include "sim/dynamic/cvode_integrator.h"
+#include "sim/dynamic/rover_dynamics.h"
 #include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/stance.h"
 #include "tests/sim/dynamic_drives.h"
@@ -189,6 +193,72 @@ TEST(DriveEndings, ARoverThatSlidesAlsoSlidesOnSteeperGround) {
     }
     EXPECT_TRUE(slid) << yaw_deg;
   }
+}
+
+Soil dry_sand() {
+  return make_soil({990.0, 1.528e6, 1.1}, 1040.0, 28.0, 0.0152, 0.18, 0.32);
+}
+
+// How far a braked rover goes from 20 s after it was put down to 80 s.
+double crept_m(double tilt_deg, double yaw_deg) {
+  const RoverModel rover = six_wheeler();
+  const FunctionGround ground = plane(rad_from_deg(tilt_deg));
+  const DriveSoils soils{{dry_sand()}, dry_sand()};
+  const DynamicOptions options;
+  RoverDynamics dynamics(rover, kMars, ground, soils, options);
+  CvodeIntegrator integrator(
+      {.size = dynamics.size(),
+       .absolute_only = dynamics.pose_size(),
+       .derivative = [&](double t, const double* y, double* rate) { return dynamics.derivative(t, y, rate); },
+       .event_count = 0,
+       .events = {}},
+      options.relative_tolerance, dynamics.tolerances(options.relative_tolerance, false), 1.0);
+  const std::vector<double> put_down =
+      dynamics.at_rest(*settle(rover, ground, {0.0, 0.0, rad_from_deg(yaw_deg)}));
+  dynamics.halt(PerWheel<double>(rover.wheels.size()));
+  dynamics.after_step(0.0, put_down.data());
+  integrator.start(0.0, put_down);
+  Pose2 from;
+  for (const double until_s : {20.0, 80.0})
+    for (double t = 0.0; t < until_s; dynamics.after_step(t, integrator.state().data())) {
+      if (until_s > 20.0 && t == 0.0) from = dynamics.pose(integrator.state().data());
+      const auto step = integrator.step(until_s);
+      if (!step) return std::numeric_limits<double>::infinity();
+      t = step->t;
+    }
+  const Pose2 at = dynamics.pose(integrator.state().data());
+  return std::hypot(at.x_m - from.x_m, at.y_m - from.y_m);
+}
+
+// Its brakes gave way to and fro, and with each swing the soil's resistance turned round and fed the next: it
+// crept by half a millimetre a second on slopes that it can hold, and slid on 26 deg where it held on 28.
+TEST(DriveEndings, ABrakedRoverStandsOnWhatItCanHoldAndSlidesOnWhatIsSteeper) {
+  for (const double yaw_deg : {0.0, 180.0})
+    for (const double tilt_deg : {22.0, 26.0, 30.0, 34.0})
+      EXPECT_LT(crept_m(tilt_deg, yaw_deg), 5e-5) << yaw_deg << " " << tilt_deg;
+  for (const double yaw_deg : {0.0, 45.0, 90.0, 180.0}) {
+    bool slid = false;
+    for (double tilt_deg = 10.0; tilt_deg <= 60.0; tilt_deg += 4.0) {
+      const Driven driven = drive(six_wheeler(), plane(rad_from_deg(tilt_deg)), dry_sand(),
+                                  rad_from_deg(yaw_deg), {straight(0.02)});
+      const bool slides = driven.drive.end == DriveEnd::kSlid || driven.drive.end == DriveEnd::kTipped;
+      EXPECT_TRUE(slides || !slid) << yaw_deg << " " << tilt_deg;
+      slid = slides;
+    }
+    EXPECT_TRUE(slid) << yaw_deg;
+  }
+}
+
+// The figures are those of the cruise: after the halt no wheel slips and no motor takes a current.
+TEST(DriveEndings, AnImmobilisedRoverReportsItsSlipAndCurrentsBeforeTheHalt) {
+  const Soil soft = make_soil({5471.0, 234221.0, 0.91}, 383.0, 19.1, 0.0133, 0.285, 0.32);
+  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(16.0)), soft, 0.0, {straight(0.8)});
+  ASSERT_EQ(driven.drive.end, DriveEnd::kImmobilised);
+  ASSERT_LT(driven.drive.duration_s, DynamicOptions{}.give_up_s);
+  const std::string& reason = driven.drive.reason;
+  EXPECT_NE(reason.find(fmt::format("slip {:.2f}, deepest", driven.cruising().slip_ratio)), std::string::npos)
+      << reason;
+  EXPECT_EQ(reason.find(" 0.00 A"), std::string::npos) << reason;
 }
 
 TEST(DriveEndings, EndsWithItsBellyOnARidge) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/rover/wheel_failure.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -52,6 +54,35 @@ TEST(Motor, TorqueOfCurrentIsTheInverseOfCurrent) {
     for (const double rate : {-0.3, 0.2})
       EXPECT_NEAR(torque_of_current_nm(drive, motor_state(drive, torque, rate).current_a, rate), torque,
                   1e-10);
+}
+
+// Over torques, rates and motors: what flows back is what the ground gave less the losses, and current is
+// continuous and rising in the torque where the gear turns from driving to being driven.
+TEST(Motor, RegenerationReturnsNoMoreThanTheGroundGave) {
+  for (const double efficiency : {0.2, 0.55, 1.0})
+    for (const double rate : {-0.3, 1e-3, 0.2}) {
+      DriveMotor drive = motor();
+      drive.gear_efficiency = efficiency;
+      double before = motor_state(drive, -40.0, rate).current_a;
+      for (double torque = -40.0; torque <= 40.0; torque += 0.125) {
+        const MotorState state = motor_state(drive, torque, rate);
+        EXPECT_GE(state.voltage_v * state.current_a, torque * rate - 1e-12) << efficiency << " " << torque;
+        EXPECT_NEAR(torque_of_current_nm(drive, state.current_a, rate), torque, 1e-9);
+        EXPECT_GE(state.current_a, before);
+        EXPECT_LE(state.current_a - before, 0.126 / (0.0224 * 1500.0 * efficiency));
+        before = state.current_a;
+      }
+    }
+}
+
+// The format's equation, for drives whose currents were computed by it.
+TEST(Motor, CurrentsByFormatAreThoseOfTheFormatUnderABrakingTorqueToo) {
+  DriveMotor drive;
+  drive.currents_by_format = true;
+  const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio * drive.gear_efficiency;
+  EXPECT_DOUBLE_EQ(motor_state(drive, -5.0, 0.3).current_a, -5.0 / geared + drive.no_load_current_a);
+  EXPECT_NEAR(torque_of_current_nm(drive, motor_state(drive, -5.0, 0.3).current_a, 0.3), -5.0, 1e-12);
+  EXPECT_NEAR(unpowered_drag_nm(drive), 0.06 * geared, 1e-9);
 }
 
 TEST(Motor, StallTorqueTakesTheWholeBusVoltageAtStandstill) {

@@ -4,10 +4,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/angle.h"
+#include "sim/effects/effect_catalogue.h"
 #include "sim/quasi_static/quasi_static.h"
+#include "sim/soil/soil_in_force.h"
+#include "sim/wheel/entry_angle.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {
@@ -114,6 +118,33 @@ TEST(Multipass, TurningInPlaceNoWheelFollowsAnother) {
     EXPECT_EQ(stiffening.wheels[k].sinkage_m, fresh.wheels[k].sinkage_m) << k;
     EXPECT_EQ(stiffening.wheels[k].torque_nm, fresh.wheels[k].torque_nm) << k;
   }
+}
+
+// As Holm saw it: soil that was compacted carries and pulls more. With the effect's own numbers and any
+// stiffening, on soils of several exponents, in driving slip.
+TEST(Multipass, ASecondPassPullsNoLessThanTheFirst) {
+  const Soil soils[] = {ding_like(),
+                        sandy_loam(),
+                        loose_sand(),
+                        make_soil({5270.0, 1515000.0, 0.7}, 1720.0, 29.0, 0.0152, 0.18, 0.32),
+                        make_soil({1400.0, 820000.0, 1.0}, 220.0, 33.1, 0.0152, 0.43, 0.32),
+                        make_soil({5471.0, 234221.0, 0.91}, 383.0, 19.1, 0.0133, 0.285, 0.32)};
+  const WheelGeometry wheel{0.125, 0.16};
+  for (const double stiffening : {0.3, 0.9, 3.0})
+    for (const Soil& fresh : soils)
+      for (const double slip : {0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.9}) {
+        Soil track = fresh;
+        const EffectSetting multipass{.name = "multipass", .parameters = {{"stiffening", stiffening}}};
+        apply_effects(std::span(&multipass, 1), track);
+        put_in_track(track, 1.0);
+        const auto pull = [&](const Soil& soil) {
+          const WheelMotion motion{1.0 - slip, 0.0};
+          const auto theta = balanced_entry_angle_rad(wheel, soil, 107.0, motion);
+          EXPECT_TRUE(theta);
+          return theta ? wheel_forces(wheel, soil, *theta, motion).drawbar_pull_n : 0.0;
+        };
+        EXPECT_GE(pull(track), pull(fresh)) << stiffening << " " << slip << " " << fresh.cohesion_pa;
+      }
 }
 
 TEST(Multipass, SoilWithoutMemoryGivesEveryWheelItsOwnSinkage) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sim/effects/effect_catalogue.h"
@@ -201,6 +202,62 @@ TEST(Digging, LowersTheWheelAndNeverRaisesItsPull) {
   }
 }
 
+// At the balance of one wheel on one sand, as deep as it digs: the soil that is carried out costs pull and
+// torque, more the deeper.
+TEST(Digging, CostsTheMoreTheDeeperItIs) {
+  Soil sand = closed_sand();
+  double pull_n = 0.0, torque_nm = 0.0, last_depth_m = 0.0;
+  for (const double share : {0.0, 0.1, 0.2, 0.4}) {
+    sand.digging.rim_share = share;
+    double depth_m = 0.0;
+    const WheelForces f = balanced(kWheel, sand, 20.0, {0.1, 0.0}, &depth_m);
+    EXPECT_GT(depth_m, last_depth_m);
+    if (last_depth_m > 0.0) EXPECT_LT(f.drawbar_pull_n, pull_n) << share;
+    if (last_depth_m > 0.0) EXPECT_GT(f.torque_nm, torque_nm) << share;
+    pull_n = f.drawbar_pull_n, torque_nm = f.torque_nm, last_depth_m = depth_m;
+  }
+}
+
+// And no less than the work to lift it by half of its depth on every metre.
+TEST(Digging, TakesThePowerThatLiftsTheSoil) {
+  Soil flat = ding_like(), dug = ding_like();
+  dug.digging = {.rim_share = 0.3, .rim_slip = 0.65, .cleat_share = 0.0, .cleat_limit = 5.0, .sideways = 0.0};
+  for (const double u : {0.2, 0.4, 0.7}) {
+    double deep_m = 0.0, shallow_m = 0.0;
+    const WheelGeometry wheel{0.125, 0.16};
+    const WheelForces deep = balanced(wheel, dug, 100.0, {u, 0.0}, &deep_m);
+    const WheelForces shallow = balanced(wheel, flat, 100.0, {u, 0.0}, &shallow_m);
+    const double z = deep_m - shallow_m;
+    // Power over the wheel's speed, N.
+    const double more = (deep.torque_nm - shallow.torque_nm) / (u * wheel.radius_m) -
+                        (deep.drawbar_pull_n - shallow.drawbar_pull_n);
+    EXPECT_GT(more, 0.5 * dug.unit_weight_n_m3() * wheel.width_m * z * z) << u;
+  }
+}
+
+// Where the soil drew a deep rim down, what the soil bears fell with depth, and the wheel that is balanced
+// jumped by twelve loads of pull from one depth to another.
+TEST(WheelLaw, NoPullJumpsInSkid) {
+  const Soil soils[] = {make_soil({1400.0, 820000.0, 1.0}, 1000.0, 45.0, 0.018, 0.4, 0.2),
+                        make_soil({1400.0, 820000.0, 1.0}, 15000.0, 25.0, 0.0152, 0.43, 0.32), ding_like(),
+                        sandy_loam()};
+  constexpr double kStep = 1e-4, kLoad_n = 107.6;
+  for (const Soil& soil : soils)
+    for (const bool ploughs : {false, true}) {
+      Soil met = soil;
+      if (ploughs) met.ploughing = {.front = 8.5, .wall = 12.0, .heap = 1.7, .wall_friction = 0.43};
+      double last = std::numeric_limits<double>::quiet_NaN();
+      for (double slip = -0.97; slip < 0.0; slip += slip < -0.8 ? kStep : 10.0 * kStep) {
+        const WheelMotion motion{1.0 / (1.0 + slip), 0.0};
+        const auto theta = balanced_entry_angle_rad({0.125, 0.16}, met, kLoad_n, motion);
+        const double pull = theta ? wheel_forces({0.125, 0.16}, met, *theta, motion).drawbar_pull_n / kLoad_n
+                                  : std::numeric_limits<double>::quiet_NaN();
+        EXPECT_FALSE(std::abs(pull - last) > 0.02) << slip << " " << ploughs << " " << soil.cohesion_pa;
+        last = pull;
+      }
+    }
+}
+
 TEST(InclinedLoad, TakesNothingFromAWheelThatDrivesAndMostFromALockedOne) {
   EXPECT_EQ(inclined_load_share(2.0, 1.0, 1.0), 1.0);
   EXPECT_EQ(inclined_load_share(2.0, 0.2, 0.2), 1.0);
@@ -281,6 +338,24 @@ TEST(HyperbolicShear, IsThereEarlierAndEndsLaterThanAnExponential) {
   EXPECT_LT(torque(hyperbola, 0.6), torque(exponential, 0.6));
   EXPECT_GT(torque(hyperbola, 0.6) / torque(hyperbola, 0.3),
             torque(exponential, 0.6) / torque(exponential, 0.3));
+}
+
+// Numbers that describe a soil without any closure are not added to a soil that has it, unless they are
+// stated.
+TEST(ClosureEffects, AreNotAddedByDefaultToASoilThatHasThem) {
+  const auto refused = [](const char* name, EffectParameters parameters, const Soil& soil) {
+    const EffectSetting setting{.name = name, .parameters = {parameters.begin(), parameters.end()}};
+    return doubled(std::span(&setting, 1), soil, "sand").size();
+  };
+  const Soil sand = closed_sand();
+  EXPECT_EQ(refused("ploughing", {}, sand), 2U);
+  EXPECT_EQ(refused("ploughing", {{"front", 1.0}}, sand), 1U);
+  EXPECT_EQ(refused("ploughing", {{"front", 1.0}, {"wall", 3.0}}, sand), 0U);
+  EXPECT_EQ(refused("digging", {}, sand), 2U);
+  EXPECT_EQ(refused("inclined_load", {}, sand), 1U);
+  EXPECT_EQ(refused("slip_directed_shear", {}, sand), 0U);  // the soil's own is all of it
+  for (const Effect& effect : effect_catalogue())
+    EXPECT_EQ(refused(std::string(effect.name).c_str(), {}, sandy_loam()), 0U) << effect.name;
 }
 
 TEST(ClosureEffects, AddToWhatASoilAndItsWheelHaveAlready) {

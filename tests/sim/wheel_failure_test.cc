@@ -15,7 +15,7 @@ TEST(WheelFailure, AnUnpoweredMotorIsTurnedAgainstItsDryFriction) {
   DriveMotor drive;
   drive.gear_friction_nm = 0.4;
   EXPECT_NEAR(unpowered_drag_nm(drive), -torque_of_current_nm(drive, 0.0, 0.1), 1e-9);
-  EXPECT_NEAR(unpowered_drag_nm(drive), 0.06 * 0.0224 * 1500.0 * 0.55 + 0.4, 1e-12);
+  EXPECT_NEAR(unpowered_drag_nm(drive), 0.06 * 0.0224 * 1500.0 / 0.55 + 0.4, 1e-9);
 }
 
 TEST(WheelFailure, EachChangesItsWheelAndNoOther) {

@@ -30,6 +30,11 @@ std::vector<std::string> names_in(const std::vector<gap::NominalSoil>& soils) {
   return names;
 }
 
+void keep_rover(sim::RoverModel rover, DriveCampaignFile& file) {
+  rover.drive.currents_by_format = true;
+  file.rover = std::make_shared<const sim::RoverModel>(std::move(rover));
+}
+
 void read_rover(ObjectReader& reader, const Catalogue& catalogue, DriveCampaignFile& file) {
   const JsonValue* const value = reader.member("rover", kRequired);
   if (value == nullptr) return;
@@ -38,7 +43,7 @@ void read_rover(ObjectReader& reader, const Catalogue& catalogue, DriveCampaignF
     if (shipped == catalogue.rovers.end())
       reader.fault("rover", unknown_rover(catalogue, value->text));
     else
-      file.rover = shipped->second;
+      keep_rover(*shipped->second, file);
     return;
   }
   if (!value->is(JsonValue::Kind::kObject)) {
@@ -52,8 +57,7 @@ void read_rover(ObjectReader& reader, const Catalogue& catalogue, DriveCampaignF
   sim::RoverModel rover = read_campaign_rover(object);
   // Its wheels' names are enough to read the drives' files by, so that their faults are reported as well.
   const bool nameable = !rover.wheels.empty() && rover.wheels.size() <= sim::kMaxWheels;
-  if (file.faults.size() == before || nameable)
-    file.rover = std::make_shared<const sim::RoverModel>(std::move(rover));
+  if (file.faults.size() == before || nameable) keep_rover(std::move(rover), file);
 }
 
 // What must hold between the numbers of a soil, under the wheels that will roll on it.
