@@ -180,12 +180,12 @@ TEST(DummyJobKind, ItsUsualWaitIsTheClients) {
 TEST(JobKinds, NoneWaitsBehindLongerWork) {
   const auto workers = api::worker_kinds();
   ASSERT_EQ(workers.size(), 3U);
-  EXPECT_EQ(workers[0],
-            (std::vector<std::string>{"plan", "prediction", "check", "sol", "diagnosis", "model_check", "watch",
-                                      "soil_estimate", "drive_campaign", "terrain", "map", "batch"}));
+  EXPECT_EQ(workers[0], (std::vector<std::string>{"plan", "prediction", "check", "sol", "diagnosis",
+                                                  "model_check", "watch", "soil_estimate", "drive_campaign",
+                                                  "terrain", "map", "batch"}));
   EXPECT_EQ(workers[1],
-            (std::vector<std::string>{"plan", "prediction", "check", "sol", "model_check", "watch", "soil_estimate",
-                                      "drive_campaign", "terrain", "map", "batch"}));
+            (std::vector<std::string>{"plan", "prediction", "check", "sol", "model_check", "watch",
+                                      "soil_estimate", "drive_campaign", "terrain", "map", "batch"}));
   EXPECT_EQ(workers[2], (std::vector<std::string>{"prediction", "check", "model_check", "soil_estimate",
                                                   "drive_campaign"}));
 }
