@@ -57,15 +57,16 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
   constexpr int kMostCells = 1024;  // along a side of the ground around
   auto departure = std::make_shared<planner::Departure>(request);
   if (const Body* const body = body_of(site.info().body)) departure->day_s = body->day_s;
-  if (const auto degrees = degrees_at(site, start)) departure->east_longitude_rad = rad_from_deg(degrees->x);
   if (!request.table.empty())
     departure->sky = std::make_shared<sky::SkyTable>(request.table);
+  else if (const auto degrees = degrees_at(site, start))
+    departure->sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
   else
-    departure->sky = std::make_shared<sky::MarsSky>(departure->east_longitude_rad,
-                                                    rad_from_deg(degrees_at(site, start)->y));
+    return fail(ErrorCode::kInvalidRequest, "the start has no longitude and latitude on this map");
   const dem::GridGeometry& whole = site.info().geometry;
   std::shared_ptr<const dem::Terrain> around;
-  if (!(near->geometry() == whole)) {
+  // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
+  if (!(near->geometry() == whole) || near->is_read_by_tiles()) {
     const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
     auto read = site.read_samples(whole.extent(), step);
     if (!read) return fail(read.error());

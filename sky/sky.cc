@@ -67,6 +67,7 @@ SkyTable table_of(const Sky& sky, std::int64_t from_ms, std::int64_t to_ms, bool
   for (std::int64_t at = from_ms; at < to_ms + kStep_ms; at += kStep_ms)
     if (const auto sun = sky.sun(at))
       samples.push_back({at, *sun, with_earth ? sky.earth(at) : std::nullopt});
+  if (samples.size() == 1) samples.push_back({from_ms + 1, samples.front().sun, samples.front().earth});
   return SkyTable(std::move(samples), sky.sun_distance_au(from_ms));
 }
 

@@ -61,8 +61,8 @@ class SkyTable final : public Sky {
   double sun_distance_au_;
 };
 
-// A sky's moments between two times, so that many looks at it cost little. Between moments of five minutes
-// the sun of Mars is within 0.002 deg.
+// A sky's moments between two times, of which the first must be known, so that many looks at it cost little.
+// Between moments of five minutes the sun of Mars is within 0.002 deg.
 SkyTable table_of(const Sky& sky, std::int64_t from_ms, std::int64_t to_ms, bool with_earth);
 
 }  // namespace slipway::sky

@@ -149,6 +149,10 @@ void read_departure(ObjectReader& reader, std::optional<DepartureRequest>& out) 
   }
   read_rules(*object, departure.rules);
   if (from && to && departure.to_ms < departure.from_ms) object->fault("to", "is before from");
+  const double days = static_cast<double>(departure.to_ms - departure.from_ms) / 86.4e6;
+  if (from && to && days > RequestLimits::kDepartureDays)
+    object->fault("to", fmt::format("is {:.0f} days behind from, must be within {:.0f}", days,
+                                    RequestLimits::kDepartureDays));
   const double tried = static_cast<double>(departure.to_ms - departure.from_ms) / 1000.0 / departure.every_s;
   if (from && tried > RequestLimits::kDepartures)
     object->fault(

@@ -35,7 +35,6 @@ struct Departure {
   DepartureRules rules;
   std::shared_ptr<const sky::Sky> sky;
   std::shared_ptr<const dem::Horizon> horizon;
-  double east_longitude_rad = 0.0;  // of the start, for the time of day
   double day_s = 88775.244;         // a solar day of the body
 };
 

@@ -14,6 +14,8 @@ namespace slipway::planner {
 namespace {
 
 constexpr int kHaltPlaces = 20;
+constexpr std::size_t kHaltDepartures = 100;   // that are tried with a halt
+constexpr double kLongest_s = 60.0 * 86400.0;  // beyond it nothing is known of the sky
 constexpr std::array<double, 10> kHaltHours{0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0, 48.0};
 constexpr std::int64_t kNarrowed_ms = 1000;
 
@@ -44,7 +46,9 @@ struct WithHalt {
 std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
                                   const std::vector<TimedDrive>& tried, Progress& progress) {
   std::optional<WithHalt> earliest;
-  for (const TimedDrive& direct : tried)
+  const std::size_t step = 1 + tried.size() / kHaltDepartures;
+  for (std::size_t k = 0; k < tried.size(); k += step) {
+    const TimedDrive& direct = tried[k];
     for (int place = 0; place < kHaltPlaces; ++place)
       for (const double hours : kHaltHours) {
         if (progress.cancelled()) return std::nullopt;
@@ -56,6 +60,7 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
         earliest = WithHalt{halt, std::move(halting)};
         break;
       }
+  }
   return earliest;
 }
 
@@ -63,12 +68,13 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
 
 Departures departures_of(const Departure& departure, const sim::PowerSupply* supply,
                          const sim::DrivePrediction& prediction, Progress& progress) {
-  const double longest_s = 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0);
+  const double longest_s =
+      std::min(kLongest_s, 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0));
   Departure at_hand = departure;
   at_hand.sky = std::make_shared<sky::SkyTable>(
       sky::table_of(*departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
                     departure.rules.min_earth_rad.has_value()));
-  const DriveInTime drive(at_hand, supply, prediction);
+  const DriveInTime drive(at_hand, supply, prediction, progress);
   Departures found;
   const auto step_ms = std::llround(1000.0 * departure.every_s);
   for (std::int64_t at = departure.from_ms; at <= departure.to_ms && !progress.cancelled(); at += step_ms)

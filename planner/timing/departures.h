@@ -9,7 +9,8 @@
 namespace slipway::planner {
 
 // The windows of a predicted drive and its best departure; where no departure keeps the rules, the halt that
-// makes one keep them and comes to the goal earliest, of halts at twenty places for up to two days. `supply`
+// makes one keep them and comes to the goal earliest, of halts at twenty places for up to two days and at
+// most a hundred of the departures. `supply`
 // as of DriveInTime. Where it is cancelled nothing is found.
 Departures departures_of(const Departure& departure, const sim::PowerSupply* supply,
                          const sim::DrivePrediction& prediction, Progress& progress);

@@ -19,6 +19,7 @@ constexpr double kHour_s = 3600.0;
 constexpr double kHaltStep_s = 300.0;
 constexpr double kEye_m = 1.0;  // the height of cells and cameras over the ground
 constexpr int kDirections = 72;
+constexpr std::size_t kMostPlaces = 400;
 constexpr double kHidden_rad = -0.5 * std::numbers::pi;  // the elevation of what the ground hides
 constexpr double kWholeWay = 0.999;                      // a draw that came so far came to the end
 
@@ -69,14 +70,23 @@ struct DriveInTime::Course {
 };
 
 DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
-                         const sim::DrivePrediction& prediction)
+                         const sim::DrivePrediction& prediction, const Progress& progress)
     : departure_(departure), supply_(supply) {
-  for (const sim::StationPrediction& at : prediction.stations) {
+  const std::vector<sim::StationPrediction>& stations = prediction.stations;
+  const std::size_t step = 1 + stations.size() / kMostPlaces;
+  double since_s = 0.0, motors_j = 0.0, before_s = 0.0;
+  for (std::size_t k = 0; k < stations.size() && !progress.cancelled(); ++k) {
+    const sim::StationPrediction& at = stations[k];
+    since_s += at.elapsed_s - before_s;
+    motors_j += at.state.electric_power_w * (at.elapsed_s - before_s);
+    before_s = at.elapsed_s;
+    if (k % step != 0 && k + 1 != stations.size()) continue;
     Place place{at.station.distance_m,
                 at.elapsed_s,
-                at.state.electric_power_w,
+                since_s > 0.0 ? motors_j / since_s : at.state.electric_power_w,
                 rotation_MB(at.state.attitude).col(2),
                 {}};
+    since_s = motors_j = 0.0;
     if (departure.horizon) {
       auto horizon =
           departure.horizon->all_around_rad(at.station.pose.x_m, at.station.pose.y_m, kEye_m, kDirections);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/progress.h"
 #include "planner/problem/departure.h"
 #include "sim/prediction/drive_prediction.h"
 #include "sim/rover/power_supply.h"
@@ -21,16 +22,16 @@ Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_
 class DriveInTime {
  public:
   // `supply` null: nothing is known of the rover's power, and charge stays what it is. All must outlive it.
-  // Horizons are looked at here, once for each station.
+  // Horizons are looked at here, at some 400 places of the way; where that is cancelled it must not be used.
   DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
-              const sim::DrivePrediction& prediction);
+              const sim::DrivePrediction& prediction, const Progress& progress);
 
   // From a departure on, with rules judged; with `keep_stations` also what is at each of them.
   TimedDrive at(std::int64_t departs_ms, bool keep_stations = false,
                 const std::optional<ChargingHalt>& halt = std::nullopt) const;
 
  private:
-  // Of a place on the way.
+  // Of a place on the way; motors_w is the mean since the place before.
   struct Place {
     double distance_m, elapsed_s, motors_w;
     Eigen::Vector3d up;               // of the body

@@ -12,6 +12,7 @@
 namespace slipway::planner {
 namespace {
 
+const NoProgress kNoProgress;
 constexpr double kHour_s = 3600.0;
 constexpr std::int64_t kHour_ms = 3'600'000;
 
@@ -75,7 +76,7 @@ TEST(DriveInTime, ItsEnergyCloses) {
   departure.charge = 0.5;
   departure.optical_depth = 0.4;
   const sim::DrivePrediction prediction = two_hours();
-  const DriveInTime drive(departure, &kCells, prediction);
+  const DriveInTime drive(departure, &kCells, prediction, kNoProgress);
   for (const double hour : {1.0, 5.5, 9.0, 12.0, 17.0}) {
     const TimedDrive at = drive.at(std::llround(hour * 3.6e6), true);
     const double end = 0.5 + (at.gained_wh - at.used_wh - at.spilled_wh) / kCells.battery_wh;
@@ -96,8 +97,8 @@ TEST(DriveInTime, TheBodyThatLeansToTheSunGainsMore) {
     at.state.attitude.roll_rad = rad_from_deg(15.0);  // left side up: leans south
   for (auto& at : north.stations) at.state.attitude.roll_rad = rad_from_deg(-15.0);
   const Departure departure = a_day();
-  EXPECT_GT(DriveInTime(departure, &kCells, south).at(11 * kHour_ms).gained_wh,
-            1.2 * DriveInTime(departure, &kCells, north).at(11 * kHour_ms).gained_wh);
+  EXPECT_GT(DriveInTime(departure, &kCells, south, kNoProgress).at(11 * kHour_ms).gained_wh,
+            1.2 * DriveInTime(departure, &kCells, north, kNoProgress).at(11 * kHour_ms).gained_wh);
 }
 
 TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
@@ -111,7 +112,7 @@ TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
   const Departures found = departures_of(departure, &kCells, prediction, progress);
   ASSERT_EQ(found.windows.size(), 1U);
   ASSERT_TRUE(found.best);
-  const DriveInTime drive(departure, &kCells, prediction);
+  const DriveInTime drive(departure, &kCells, prediction, kNoProgress);
   for (std::int64_t at = 0; at <= departure.to_ms; at += 120'000) {
     const bool inside = at >= found.windows[0].from_ms && at <= found.windows[0].to_ms;
     const auto distance =
@@ -170,10 +171,10 @@ TEST(Departures, BehindAWallTheSunIsNotInSight) {
   Departure departure = a_day();
   departure.rules.min_sun_rad = 0.0;
   const sim::DrivePrediction prediction = two_hours();
-  EXPECT_TRUE(holds(DriveInTime(departure, &kCells, prediction).at(11 * kHour_ms)));
+  EXPECT_TRUE(holds(DriveInTime(departure, &kCells, prediction, kNoProgress).at(11 * kHour_ms)));
   departure.horizon = std::make_shared<dem::Horizon>(std::make_shared<dem::Terrain>(kGrid, heights, valid),
                                                      std::numeric_limits<double>::infinity());
-  const TimedDrive hidden = DriveInTime(departure, &kCells, prediction).at(11 * kHour_ms);
+  const TimedDrive hidden = DriveInTime(departure, &kCells, prediction, kNoProgress).at(11 * kHour_ms);
   EXPECT_FALSE(holds(hidden));
   EXPECT_EQ(hidden.lit_share, 0.0);
 }
