@@ -4,7 +4,7 @@
     papers.py SLIPWAY SOURCE_FOLDER [PART ...]
 
 Nothing of the program is used for the papers' side: the integrals are summed here, with the standard library alone. A part is one of
-wheel, side_wall, grousers, slip_sinkage, estimate, limit, motor, current, states, soils; all of them where none is named."""
+wheel, derivations, side_wall, grousers, slip_sinkage, estimate, limit, motor, current, states, soils; all of them where none is named."""
 import csv
 import json
 import math
@@ -118,6 +118,39 @@ def part_wheel():
     paper = Artemis(soil, 0.125, 0.16, 100, 0.6, math.radians(15))
     for name in columns:
         print(f"  slip 0.6, 15 deg: {name} printed equations {getattr(paper, name):.5g}, program {row[name]:.5g}")
+
+
+def part_derivations():
+    """Shear displacements: the integrals and derivatives that the papers print against the closed forms that they print."""
+    front, r, skew, furthest = 0.6, 0.125, math.tan(math.radians(15)), {}
+
+    def apart(name, got, want):
+        furthest[name] = max(furthest.get(name, 0.0), abs(got - want) / r)
+
+    for slip in (-0.4, 0.0, 0.3, 0.9):
+        u = 1 - slip if slip >= 0 else 1 / (1 + slip)  # forward speed over the rim's, by equation 21
+        for t in (0.0, 0.2, 0.4):
+            driving = r * (front - t - (1 - slip) * (math.sin(front) - math.sin(t)))
+            braking = r * (front - t - (math.sin(front) - math.sin(t)) / (1 + slip))
+            apart("ARTEMIS 4 to 5", integral(lambda a: r * (1 - u * math.cos(a)), t, front), driving if slip >= 0 else braking)
+            across = r * (1 - slip) * (front - t) * skew if slip >= 0 else r * (front - t) * skew / (1 + slip)
+            apart("ARTEMIS 7, 8 to 9, 10", integral(lambda a: r * u * skew, t, front), across)
+            if slip < 0:
+                continue
+
+            def x(a):
+                return r * (1 - slip) * (front - a) - r * (math.sin(front) - math.sin(a))
+
+            def y(a):
+                return r * (math.cos(a) - math.cos(front))
+
+            h = 1e-5
+            dx, dy = r * (math.cos(t) - 1 + slip), -r * math.sin(t)
+            apart("Zhurong A5 to A6", math.hypot((x(t + h) - x(t - h)) / (2 * h) - dx, (y(t + h) - y(t - h)) / (2 * h) - dy), 0.0)
+            apart("Zhurong A6 to A7", dy * math.sin(t) - dx * math.cos(t), r * ((1 - slip) * math.cos(t) - 1))
+            apart("Zhurong A7 to A8", -integral(lambda a: r * ((1 - slip) * math.cos(a) - 1), t, front), driving)
+    for name, most in furthest.items():
+        print(f"  {name}: furthest apart by {most:.1e} of the radius")
 
 
 def part_side_wall():
@@ -317,8 +350,8 @@ def part_soils():
         "jlu_mars_3_dense": (552.963, 6879.961, 1.107, 0.437, 37.6, 2.07),
         "vl1_drift": (1.4, 820, 1.0, 1.6, 18, None), "vl1_blocky": (1.4, 820, 1.0, 5.5, 30.8, None), "vl2_crusty_cloddy": (1.4, 820, 1.0, 1.1, 34.5, None),
         "mpf_drift": (1.4, 820, 1.0, 0.38, 23.1, None), "mpf_cloddy": (1.4, 820, 1.0, 0.17, 37.0, None), "mer_a_loose": (None, None, None, 1.0, 20, None),
-        "mer_a_dense": (None, None, None, 15, 25, None), "mer_b_slope_soil": (20, 210, 0.8, 0.5, 20, None), "mer_b_sandy_loam": (20, 7600, 1.0, 5, 20, None),
-        "msl_bedrock": (100, 100, 1.4, 1.5, 30, None), "dry_sand": (0.99, 1528, 1.1, 1.04, 28, None), "sandy_loam": (5.27, 1515, 0.7, 1.72, 29, None),
+        "mer_a_dense": (None, None, None, 15, 25, None), "mer_b_slope_soil": (20, 210, 0.8, 0.5, 20, 3), "mer_b_sandy_loam": (20, 7600, 1.0, 5, 20, 3),
+        "msl_bedrock": (100, 100, 1.4, 1.5, 30, 3), "dry_sand": (0.99, 1528, 1.1, 1.04, 28, None), "sandy_loam": (5.27, 1515, 0.7, 1.72, 29, None),
         "clayey_soil": (13.19, 692.2, 0.5, 4.14, 13, None)}
     known, scale = soils(), (1000, 1000, 1, 1000, 1, 0.01)
     keys = ("k_c", "k_phi", "n", "cohesion_pa", "friction_angle_deg", "shear_modulus_x_m")
