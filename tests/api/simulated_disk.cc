@@ -274,26 +274,26 @@ SimulatedDisk::~SimulatedDisk() {
   disk = nullptr;
 }
 
-void SimulatedDisk::arm(Fault fault, int after) {
+void SimulatedDisk::arm(Mishap fault, int after) {
   armed_ = fault;
-  struck_ = Fault::kNone;
+  struck_ = Mishap::kNone;
   calls_left_ = after;
 }
 
-SimulatedDisk::Fault SimulatedDisk::rest() {
-  armed_ = Fault::kNone;
-  return std::exchange(struck_, Fault::kNone);
+SimulatedDisk::Mishap SimulatedDisk::rest() {
+  armed_ = Mishap::kNone;
+  return std::exchange(struck_, Mishap::kNone);
 }
 
 bool SimulatedDisk::may_call(int process, bool writes, bool& full) {
   if (is_dead(process)) return false;
-  if (armed_ == Fault::kNone || calls_left_-- > 0) return true;
-  full = armed_ == Fault::kFull;
+  if (armed_ == Mishap::kNone || calls_left_-- > 0) return true;
+  full = armed_ == Mishap::kFull;
   if (full && !writes) return true;
   struck_ = armed_;
-  if (armed_ == Fault::kError) armed_ = Fault::kNone;
-  if (armed_ == Fault::kDeath) die(process);
-  if (armed_ == Fault::kPower) lose_power();
+  if (armed_ == Mishap::kError) armed_ = Mishap::kNone;
+  if (armed_ == Mishap::kDeath) die(process);
+  if (armed_ == Mishap::kPower) lose_power();
   return false;
 }
 
@@ -305,7 +305,7 @@ std::shared_ptr<DiskFile> SimulatedDisk::find(const std::string& path, bool make
 
 void SimulatedDisk::die(int process) {
   dead_.insert(process);
-  armed_ = Fault::kNone;
+  armed_ = Mishap::kNone;
   for (auto& [path, file] : files_) {
     const bool lives = std::any_of(file->open.begin(), file->open.end(), [&](const OpenFile* open) {
       return open->maps && !is_dead(open->process);
@@ -316,7 +316,7 @@ void SimulatedDisk::die(int process) {
 
 void SimulatedDisk::lose_power() {
   for (int process = 1; process <= last_process_; ++process) dead_.insert(process);
-  armed_ = Fault::kNone;
+  armed_ = Mishap::kNone;
   for (auto& [path, file] : files_) file->lose(chance_);
 }
 

@@ -20,7 +20,7 @@ class SimulatedDisk {
   SimulatedDisk(const SimulatedDisk&) = delete;
   SimulatedDisk& operator=(const SimulatedDisk&) = delete;
 
-  enum class Fault {
+  enum class Mishap {
     kNone,
     kError,  // this call alone
     kFull,   // this and the writes after it, until rest()
@@ -28,9 +28,9 @@ class SimulatedDisk {
     kPower,  // of all, and what was not synced is lost, kept or torn, each write by itself
   };
   // What befalls the call after so many others.
-  void arm(Fault fault, int after);
+  void arm(Mishap fault, int after);
   // No more faults. What has struck since arm(); kNone: nothing.
-  Fault rest();
+  Mishap rest();
 
   // Who opens files from now on.
   int begin_process() { return process_ = ++last_process_; }
@@ -51,7 +51,7 @@ class SimulatedDisk {
  private:
   std::mt19937_64 chance_;
   std::map<std::string, std::shared_ptr<DiskFile>> files_;
-  Fault armed_ = Fault::kNone, struck_ = Fault::kNone;
+  Mishap armed_ = Mishap::kNone, struck_ = Mishap::kNone;
   int calls_left_ = 0;
   int process_ = 0, last_process_ = 0;
   std::set<int> dead_;

@@ -24,7 +24,7 @@ namespace slipway::api {
 namespace {
 
 using testing::SimulatedDisk;
-using Fault = SimulatedDisk::Fault;
+using Mishap = SimulatedDisk::Mishap;
 
 constexpr std::int64_t kLease_ms = 1000;
 
@@ -56,7 +56,7 @@ class Simulation {
     for (int step = 0; step < 45 && found_.empty(); ++step) {
       now_ += below(20) == 0 ? 5 * kLease_ms : below(50);
       Process& process = processes_[below(processes_.size())];
-      if (below(4) == 0) disk_.arm(static_cast<Fault>(1 + below(4)), below(40));
+      if (below(4) == 0) disk_.arm(static_cast<Mishap>(1 + below(4)), below(40));
       if (process.store || open(process)) act(*process.store);
       static_cast<void>(disk_.rest());
       bury();
