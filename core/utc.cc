@@ -11,8 +11,9 @@ namespace slipway {
 
 std::string utc_text(std::int64_t ms) {
   constexpr std::int64_t kPerSecond = 1000;
-  const auto seconds = static_cast<std::time_t>(ms / kPerSecond);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), ms % kPerSecond);
+  const std::int64_t part = (ms % kPerSecond + kPerSecond) % kPerSecond;
+  const auto seconds = static_cast<std::time_t>((ms - part) / kPerSecond);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), part);
 }
 
 std::optional<std::int64_t> utc_of_text(std::string_view text) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -32,8 +34,7 @@ double MarsSky::sun_distance_au(std::int64_t utc_ms) const {
   return mars_time(utc_ms, east_longitude_rad_).sun_distance_au;
 }
 
-SkyTable::SkyTable(std::vector<SkySample> samples, double sun_distance_au)
-    : samples_(std::move(samples)), sun_distance_au_(sun_distance_au) {
+SkyTable::SkyTable(std::vector<SkySample> samples) : samples_(std::move(samples)) {
   const auto rises = [](const SkySample& a, const SkySample& b) { return a.utc_ms >= b.utc_ms; };
   if (samples_.size() < 2 || std::adjacent_find(samples_.begin(), samples_.end(), rises) != samples_.end())
     throw std::invalid_argument("SkyTable: two moments or more, by rising times");
@@ -61,14 +62,25 @@ std::optional<Bearing> SkyTable::earth(std::int64_t utc_ms) const {
   return part_way(*at->before->earth, *at->after->earth, at->share);
 }
 
+double SkyTable::sun_distance_au(std::int64_t utc_ms) const {
+  const auto at = between(utc_ms);
+  return (at ? *at->before : samples_.front()).sun_distance_au;
+}
+
+std::optional<Bearing> SkyOverMap::turned(std::optional<Bearing> bearing) const {
+  if (!bearing) return bearing;
+  const double azimuth = std::fmod(bearing->azimuth_rad - map_north_rad_, 2.0 * std::numbers::pi);
+  bearing->azimuth_rad = azimuth < 0.0 ? azimuth + 2.0 * std::numbers::pi : azimuth;
+  return bearing;
+}
+
 SkyTable table_of(const Sky& sky, std::int64_t from_ms, std::int64_t to_ms, bool with_earth) {
   constexpr std::int64_t kStep_ms = 300'000;
   std::vector<SkySample> samples;
-  for (std::int64_t at = from_ms; at < to_ms + kStep_ms; at += kStep_ms)
-    if (const auto sun = sky.sun(at))
-      samples.push_back({at, *sun, with_earth ? sky.earth(at) : std::nullopt});
-  if (samples.size() == 1) samples.push_back({from_ms + 1, samples.front().sun, samples.front().earth});
-  return SkyTable(std::move(samples), sky.sun_distance_au(from_ms));
+  for (std::int64_t at = from_ms; at < to_ms + 2 * kStep_ms; at += kStep_ms)
+    samples.push_back(
+        {at, sky.sun(at).value(), with_earth ? sky.earth(at) : std::nullopt, sky.sun_distance_au(at)});
+  return SkyTable(std::move(samples));
 }
 
 }  // namespace slipway::sky

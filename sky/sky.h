@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sky/bearing.h"
@@ -17,6 +19,8 @@ class Sky {
   virtual std::optional<Bearing> earth(std::int64_t utc_ms) const = 0;
   // Distance to the sun [au].
   virtual double sun_distance_au(std::int64_t utc_ms) const = 0;
+  // Looked up, so that many looks cost little; otherwise see table_of().
+  virtual bool is_table() const { return false; }
 };
 
 // By formulas, see mars_time.h.
@@ -37,18 +41,19 @@ struct SkySample {
   std::int64_t utc_ms = 0;
   Bearing sun;
   std::optional<Bearing> earth;
+  double sun_distance_au = 1.0;  // as over the Moon
 };
 
 // By a table: along great circles between its moments, and not known before the first and behind the last.
 class SkyTable final : public Sky {
  public:
-  static constexpr double kMoonDistanceAu = 1.0;  // also of any body near the Earth
-
   // At least two, by rising times; all have the Earth or none.
-  explicit SkyTable(std::vector<SkySample> samples, double sun_distance_au = kMoonDistanceAu);
+  explicit SkyTable(std::vector<SkySample> samples);
   std::optional<Bearing> sun(std::int64_t utc_ms) const override;
   std::optional<Bearing> earth(std::int64_t utc_ms) const override;
-  double sun_distance_au(std::int64_t /*utc_ms*/) const override { return sun_distance_au_; }
+  // That of the moment before.
+  double sun_distance_au(std::int64_t utc_ms) const override;
+  bool is_table() const override { return true; }
 
  private:
   struct Between {
@@ -58,10 +63,27 @@ class SkyTable final : public Sky {
   std::optional<Between> between(std::int64_t utc_ms) const;
 
   std::vector<SkySample> samples_;
-  double sun_distance_au_;
 };
 
-// A sky's moments between two times, of which the first must be known, so that many looks at it cost little.
+// A sky whose directions count from a map's north: the map's own stands `map_north_rad` clockwise of the
+// true one at the place.
+class SkyOverMap final : public Sky {
+ public:
+  SkyOverMap(std::shared_ptr<const Sky> sky, double map_north_rad)
+      : sky_(std::move(sky)), map_north_rad_(map_north_rad) {}
+  std::optional<Bearing> sun(std::int64_t utc_ms) const override { return turned(sky_->sun(utc_ms)); }
+  std::optional<Bearing> earth(std::int64_t utc_ms) const override { return turned(sky_->earth(utc_ms)); }
+  double sun_distance_au(std::int64_t utc_ms) const override { return sky_->sun_distance_au(utc_ms); }
+  bool is_table() const override { return sky_->is_table(); }
+
+ private:
+  std::optional<Bearing> turned(std::optional<Bearing> bearing) const;
+
+  std::shared_ptr<const Sky> sky_;
+  double map_north_rad_;
+};
+
+// The moments between two times of a sky that is known at all times, so that many looks at it cost little.
 // Between moments of five minutes the sun of Mars is within 0.002 deg.
 SkyTable table_of(const Sky& sky, std::int64_t from_ms, std::int64_t to_ms, bool with_earth);
 

@@ -20,7 +20,7 @@ struct DepartureRules {
   std::optional<std::int64_t> arrive_by;  // ms of UTC since 1970
 };
 
-// The air over a day: warmest at 14 h of local solar time, as a cosine.
+// The air over a day: warmest a twelfth of a day behind noon, as a cosine.
 struct AirTemperature {
   double coldest_c = 0.0, warmest_c = 0.0;
 };
@@ -32,6 +32,7 @@ struct Departure {
   double charge = 1.0;         // of the battery at the departure, share of what it holds
   double optical_depth = 0.0;  // of the atmosphere
   std::optional<AirTemperature> air = {};
+  std::int64_t noon_ms = 0;  // when the sun stands highest, of any day; where there is air
   DepartureRules rules;
   std::shared_ptr<const sky::Sky> sky;
   std::shared_ptr<const dem::Horizon> horizon;
@@ -42,7 +43,7 @@ struct Departure {
 // draws stay below.
 struct TimedStation {
   double distance_m = 0.0;
-  std::int64_t utc_ms = 0;
+  std::int64_t utc_ms = 0, late_ms = 0;  // at the 50th and the 95th percentile of the draws
   double sun_over_horizon_rad = 0.0;
   bool is_lit = false;
   double in_w = 0.0, out_w = 0.0;

@@ -24,14 +24,41 @@ bool keeps_rules(const TimedDrive& drive) {
                      [](const JudgedRule& rule) { return rule.verdict == Verdict::kGo; });
 }
 
-auto broken(const TimedDrive& drive) {
-  return std::count_if(drive.rules.begin(), drive.rules.end(),
-                       [](const JudgedRule& rule) { return rule.verdict != Verdict::kGo; });
+// The worst verdict of the rules, and how many do not hold.
+std::pair<int, std::ptrdiff_t> broken(const TimedDrive& drive) {
+  int worst = 0;
+  for (const JudgedRule& rule : drive.rules) worst = std::max(worst, severity(rule.verdict));
+  return {worst, std::count_if(drive.rules.begin(), drive.rules.end(), [](const JudgedRule& rule) {
+            return rule.verdict != Verdict::kGo;
+          })};
+}
+
+// More charge would make it keep the rules.
+bool lacks_charge_alone(const TimedDrive& drive) {
+  return broken(drive).second == 1 &&
+         std::any_of(drive.rules.begin(), drive.rules.end(), [](const JudgedRule& rule) {
+           return rule.name == "charge" && rule.verdict == Verdict::kNoGo;
+         });
+}
+
+// When the sun stands highest, of the day that begins with the first departure.
+std::int64_t noon_of(const Departure& departure) {
+  constexpr int kLooks = 288;
+  std::int64_t noon = departure.from_ms;
+  double highest = -2.0;
+  for (int k = 0; k < kLooks; ++k) {
+    const std::int64_t at = departure.from_ms + std::llround(1000.0 * departure.day_s * k / kLooks);
+    const auto sun = departure.sky->sun(at);
+    if (!sun || sun->elevation_rad <= highest) continue;
+    highest = sun->elevation_rad;
+    noon = at;
+  }
+  return noon;
 }
 
 // The moment nearest to `bad` at which the rules hold.
-std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad) {
-  while (std::abs(bad - good) > kNarrowed_ms) {
+std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad, const Progress& progress) {
+  while (std::abs(bad - good) > kNarrowed_ms && !progress.cancelled()) {
     const std::int64_t middle = good + (bad - good) / 2;
     (keeps_rules(drive.at(middle)) ? good : bad) = middle;
   }
@@ -49,6 +76,8 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
   const std::size_t step = 1 + tried.size() / kHaltDepartures;
   for (std::size_t k = 0; k < tried.size(); k += step) {
     const TimedDrive& direct = tried[k];
+    if (!lacks_charge_alone(direct)) continue;
+    progress.report("looking for a halt to charge", static_cast<double>(k) / static_cast<double>(tried.size()));
     for (int place = 0; place < kHaltPlaces; ++place)
       for (const double hours : kHaltHours) {
         if (progress.cancelled()) return std::nullopt;
@@ -68,17 +97,26 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
 
 Departures departures_of(const Departure& departure, const sim::PowerSupply* supply,
                          const sim::DrivePrediction& prediction, Progress& progress) {
-  const double longest_s =
-      std::min(kLongest_s, 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0));
   Departure at_hand = departure;
-  at_hand.sky = std::make_shared<sky::SkyTable>(
-      sky::table_of(*departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
-                    departure.rules.min_earth_rad.has_value()));
+  if (departure.air) at_hand.noon_ms = noon_of(departure);
+  if (!departure.sky->is_table()) {
+    const double longest_s =
+        std::min(kLongest_s, 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0) +
+                                 departure.rules.light_left_s.value_or(0.0));
+    at_hand.sky = std::make_shared<sky::SkyTable>(sky::table_of(
+        *departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
+        departure.rules.min_earth_rad.has_value()));
+  }
   const DriveInTime drive(at_hand, supply, prediction, progress);
   Departures found;
   const auto step_ms = std::llround(1000.0 * departure.every_s);
-  for (std::int64_t at = departure.from_ms; at <= departure.to_ms && !progress.cancelled(); at += step_ms)
+  const double span_ms = static_cast<double>(departure.to_ms - departure.from_ms) + 1.0;
+  for (std::int64_t at = departure.from_ms; !progress.cancelled();
+       at = std::min(at + step_ms, departure.to_ms)) {
+    progress.report("looking for departures", static_cast<double>(at - departure.from_ms) / span_ms);
     found.tried.push_back(drive.at(at));
+    if (at >= departure.to_ms) break;
+  }
   std::vector<TimedDrive>& tried = found.tried;
   if (tried.empty()) return found;
   for (std::size_t k = 0; k < tried.size(); ++k) {
@@ -86,11 +124,8 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
     const std::size_t first = k;
     while (k + 1 < tried.size() && keeps_rules(tried[k + 1])) ++k;
     DepartureWindow window{tried[first].departs_ms, tried[k].departs_ms};
-    if (first > 0) window.from_ms = edge_of(drive, window.from_ms, tried[first - 1].departs_ms);
-    if (k + 1 < tried.size())
-      window.to_ms = edge_of(drive, window.to_ms, tried[k + 1].departs_ms);
-    else if (keeps_rules(drive.at(departure.to_ms)))
-      window.to_ms = departure.to_ms;
+    if (first > 0) window.from_ms = edge_of(drive, window.from_ms, tried[first - 1].departs_ms, progress);
+    if (k + 1 < tried.size()) window.to_ms = edge_of(drive, window.to_ms, tried[k + 1].departs_ms, progress);
     found.windows.push_back(window);
   }
   const auto is_nearer = [](const TimedDrive& a, const TimedDrive& b) {

@@ -27,21 +27,6 @@ std::int64_t after(std::int64_t utc_ms, double seconds) {
   return utc_ms + std::llround(1000.0 * seconds);
 }
 
-// When the sun stands highest, of the day that begins with the first departure.
-std::int64_t noon_after(const Departure& departure) {
-  constexpr int kLooks = 288;
-  std::int64_t noon = departure.from_ms;
-  double highest = -std::numbers::pi;
-  for (int k = 0; k < kLooks; ++k) {
-    const std::int64_t at = after(departure.from_ms, departure.day_s * k / kLooks);
-    const auto sun = departure.sky->sun(at);
-    if (!sun || sun->elevation_rad <= highest) continue;
-    highest = sun->elevation_rad;
-    noon = at;
-  }
-  return noon;
-}
-
 }  // namespace
 
 Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_depth) {
@@ -66,7 +51,7 @@ struct DriveInTime::Course {
     }
   };
   Least charge_at, sun_rad, earth_rad;
-  bool is_known = true;  // the sky is known all the way
+  bool sun_is_known = true, earth_is_known = true;  // all the way
 };
 
 DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
@@ -95,7 +80,6 @@ DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* sup
     places_.push_back(std::move(place));
   }
   set_paces(prediction);
-  if (departure.air) noon_ms_ = noon_after(departure);
 }
 
 // Of the draws that come to the end; the others are the halts that the verdict counts.
@@ -117,12 +101,14 @@ void DriveInTime::set_paces(const sim::DrivePrediction& prediction) {
 
 double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bearing) const {
   if (place.horizon_rad.empty()) return bearing.elevation_rad;
-  return bearing.elevation_rad - dem::horizon_between_rad(place.horizon_rad, bearing.azimuth_rad);
+  // Ground below the level hides nothing that is above it, and lights nothing below.
+  return bearing.elevation_rad -
+         std::max(0.0, dem::horizon_between_rad(place.horizon_rad, bearing.azimuth_rad));
 }
 
 double DriveInTime::air_c(std::int64_t utc_ms) const {
   constexpr double kWarmest = 2.0 / 24.0;  // behind noon
-  const double phase = static_cast<double>(utc_ms - noon_ms_) / 1000.0 / departure_.day_s - kWarmest;
+  const double phase = static_cast<double>(utc_ms - departure_.noon_ms) / 1000.0 / departure_.day_s - kWarmest;
   const double mean = 0.5 * (departure_.air->warmest_c + departure_.air->coldest_c);
   return mean + 0.5 * (departure_.air->warmest_c - departure_.air->coldest_c) *
                     std::cos(2.0 * std::numbers::pi * phase);
@@ -134,18 +120,19 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
   Course course;
   course.charge = departure_.charge;
   std::int64_t now = departs_ms;
-  const auto spend = [&](const Place& place, double seconds, double motors_w, double distance_m) {
+  const auto spend = [&](const Place& place, double seconds, std::optional<double> motors_w) {
     const std::int64_t middle = after(now, 0.5 * seconds);
+    const double distance_m = place.distance_m;
     const auto sun = departure_.sky->sun(middle);
     const double over = sun ? over_horizon_rad(place, *sun) : 0.0;
     const bool is_lit = sun && over > 0.0;
-    course.is_known &= sun.has_value();
+    course.sun_is_known &= sun.has_value();
     course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
     if (departure_.rules.min_earth_rad) {
       const auto earth = departure_.sky->earth(middle);
       const bool in_sight = earth && over_horizon_rad(place, *earth) > 0.0;
       course.earth_rad.lower(in_sight ? earth->elevation_rad : kHidden_rad, distance_m);
-      course.is_known &= earth.has_value();
+      course.earth_is_known &= earth.has_value();
     }
     double in_w = 0.0, out_w = 0.0;
     if (supply_ != nullptr) {
@@ -158,7 +145,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
             (is_lit ? light.beam_w_m2 * std::max(0.0, sky::towards(*sun).dot(place.up)) : 0.0);
         in_w += supply_->array_m2 * supply_->array_efficiency * supply_->array_clean * on_cells;
       }
-      out_w = motors_w + (motors_w > 0.0 ? supply_->driving_w : supply_->standing_w);
+      out_w = motors_w ? *motors_w + supply_->driving_w : supply_->standing_w;
       if (departure_.air && air_c(middle) < supply_->heating_below_c) out_w += supply_->heating_w;
       const double hours = seconds / kHour_s;
       course.gained_wh += in_w * hours;
@@ -175,7 +162,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     course.total_s += seconds;
     if (is_lit) course.lit_s += seconds;
     now = after(now, seconds);
-    return TimedStation{distance_m, now, over, is_lit, in_w, out_w, course.charge, course.charge};
+    return TimedStation{distance_m, now, now, over, is_lit, in_w, out_w, course.charge, course.charge};
   };
   bool halted = !halt;
   for (std::size_t k = 0; k < places_.size(); ++k) {
@@ -183,31 +170,32 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     const double before_s = k == 0 ? 0.0 : places_[k - 1].elapsed_s;
     const double seconds = pace.time * (place.elapsed_s - before_s);
     // What more energy is needed goes into the same time's power.
-    const TimedStation at = spend(place, seconds, place.motors_w * pace.energy / pace.time, place.distance_m);
+    const TimedStation at = spend(place, seconds, place.motors_w * pace.energy / pace.time);
     if (stations != nullptr) stations->push_back(at);
     if (halted || place.distance_m < halt->at_m) continue;
     halted = true;
     for (double left = halt->hours * kHour_s; left > 0.0; left -= kHaltStep_s)
-      spend(place, std::min(left, kHaltStep_s), 0.0, place.distance_m);
+      spend(place, std::min(left, kHaltStep_s), std::nullopt);
   }
   course.arrives_ms = now;
   return course;
 }
 
-// How long the sun stays over the horizon of the last place, up to `enough_s`.
-double DriveInTime::light_left_s(std::int64_t from_ms, double enough_s) const {
+// How long the sun stays over the horizon of the last place, up to `enough_s`; nothing where it is not known.
+std::optional<double> DriveInTime::light_left_s(std::int64_t from_ms, double enough_s) const {
   constexpr double kStep_s = 60.0;
   for (double s = 0.0; s < enough_s; s += kStep_s) {
     const auto sun = departure_.sky->sun(after(from_ms, s));
-    if (!sun || places_.empty() || over_horizon_rad(places_.back(), *sun) <= 0.0) return s;
+    if (!sun || places_.empty()) return std::nullopt;
+    if (over_horizon_rad(places_.back(), *sun) <= 0.0) return s;
   }
   return enough_s;
 }
 
 void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& drive) const {
   const DepartureRules& rules = departure_.rules;
-  const auto add = [&](std::string name, double value, double low, double limit, std::string unit,
-                       std::optional<double> at_m, std::string words) {
+  const auto add = [&](std::string name, bool is_known, double value, double low, double limit,
+                       std::string unit, std::optional<double> at_m, std::string words) {
     JudgedRule rule{.name = std::move(name), .verdict = low >= limit ? Verdict::kGo : Verdict::kNoGo};
     rule.value = rule.high = value;
     rule.low = low;
@@ -215,48 +203,52 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     rule.unit = std::move(unit);
     rule.at_m = at_m;
     rule.words = std::move(words);
+    if (!is_known) {
+      rule.verdict = Verdict::kUnknown;
+      rule.words = fmt::format("the table of the sky ends before {} is known", rule.name);
+    }
     drive.rules.push_back(std::move(rule));
   };
-  if (!usual.is_known || !slow.is_known) {
-    JudgedRule rule{.name = "sky", .verdict = Verdict::kUnknown};
-    rule.words = "the table of the sky ends before the drive does";
-    drive.rules.push_back(std::move(rule));
-  }
-  if (rules.min_charge) {
+  const bool sun_is_known = usual.sun_is_known && slow.sun_is_known;
+  if (supply_ != nullptr) {
     const Course& least = usual.least_charge < slow.least_charge ? usual : slow;
-    add("charge", 100.0 * usual.least_charge, 100.0 * least.least_charge, 100.0 * *rules.min_charge, "%",
-        least.charge_at.at_m,
-        fmt::format(
-            "the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
-            100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m,
-            100.0 * *rules.min_charge));
+    const double limit = 100.0 * rules.min_charge.value_or(0.0);
+    add("charge", sun_is_known || supply_->array_m2 <= 0.0, 100.0 * usual.least_charge,
+        100.0 * least.least_charge, limit, "%", least.charge_at.at_m,
+        fmt::format("the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
+                    100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m, limit));
   }
-  const auto in_sight = [&](const char* name, const char* what, const Course::Least& a,
+  const auto in_sight = [&](const char* name, const char* what, bool is_known, const Course::Least& a,
                             const Course::Least& b, double limit_rad) {
     const Course::Least& least = a.value < b.value ? a : b;
     const bool hidden = least.value <= kHidden_rad;
-    add(name, deg_from_rad(a.value), deg_from_rad(least.value), deg_from_rad(limit_rad), "deg", least.at_m,
+    // What is hidden is below every limit.
+    const double limit_deg = std::max(deg_from_rad(limit_rad), -90.0 + 1e-9);
+    add(name, is_known, deg_from_rad(a.value), deg_from_rad(least.value), limit_deg, "deg", least.at_m,
         hidden ? fmt::format("{} is not in sight at {:.1f} m", what, least.at_m)
                : fmt::format("{} stands {:.1f} deg high at {:.1f} m, limit {:.1f} deg", what,
-                             deg_from_rad(least.value), least.at_m, deg_from_rad(limit_rad)));
+                             deg_from_rad(least.value), least.at_m, limit_deg));
   };
-  if (rules.min_sun_rad) in_sight("sun", "the sun", usual.sun_rad, slow.sun_rad, *rules.min_sun_rad);
+  if (rules.min_sun_rad)
+    in_sight("sun", "the sun", sun_is_known, usual.sun_rad, slow.sun_rad, *rules.min_sun_rad);
   if (rules.min_earth_rad)
-    in_sight("earth", "the Earth", usual.earth_rad, slow.earth_rad, *rules.min_earth_rad);
+    in_sight("earth", "the Earth", usual.earth_is_known && slow.earth_is_known, usual.earth_rad,
+             slow.earth_rad, *rules.min_earth_rad);
   if (rules.light_left_s) {
     const double enough = *rules.light_left_s;
-    const double left = light_left_s(slow.arrives_ms, enough);
-    add("light_left", light_left_s(usual.arrives_ms, enough) / kHour_s, left / kHour_s, enough / kHour_s, "h",
-        {},
-        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h",
-                                    left / kHour_s, enough / kHour_s)
+    const auto at_usual = light_left_s(usual.arrives_ms, enough), at_slow = light_left_s(slow.arrives_ms, enough);
+    const double left = at_slow.value_or(0.0);
+    add("light_left", at_usual && at_slow, at_usual.value_or(0.0) / kHour_s, left / kHour_s, enough / kHour_s,
+        "h", {},
+        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h", left / kHour_s,
+                                    enough / kHour_s)
                       : fmt::format("{:.2f} h of light or more are left at the arrival", enough / kHour_s));
   }
   if (rules.arrive_by) {
     const auto hours_before = [&](std::int64_t at) {
       return static_cast<double>(*rules.arrive_by - at) / 3.6e6;
     };
-    add("arrival", hours_before(usual.arrives_ms), hours_before(slow.arrives_ms), 0.0, "h", {},
+    add("arrival", true, hours_before(usual.arrives_ms), hours_before(slow.arrives_ms), 0.0, "h", {},
         fmt::format("the rover arrives at {}, at the slow pace at {}, limit {}", utc_text(usual.arrives_ms),
                     utc_text(slow.arrives_ms), utc_text(*rules.arrive_by)));
   }
@@ -268,8 +260,10 @@ TimedDrive DriveInTime::at(std::int64_t departs_ms, bool keep_stations,
   std::vector<TimedStation> at_slow_pace;
   const Course usual = run(departs_ms, usual_, halt, keep_stations ? &drive.stations : nullptr);
   const Course slow = run(departs_ms, slow_, halt, keep_stations ? &at_slow_pace : nullptr);
-  for (std::size_t k = 0; k < drive.stations.size(); ++k)
+  for (std::size_t k = 0; k < drive.stations.size(); ++k) {
     drive.stations[k].charge_low = std::min(drive.stations[k].charge, at_slow_pace[k].charge);
+    drive.stations[k].late_ms = at_slow_pace[k].utc_ms;
+  }
   drive.departs_ms = departs_ms;
   drive.arrives_ms = usual.arrives_ms;
   drive.arrives_late_ms = slow.arrives_ms;

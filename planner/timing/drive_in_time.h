@@ -48,14 +48,13 @@ class DriveInTime {
              std::vector<TimedStation>* stations) const;
   void judge(const Course& usual, const Course& slow, TimedDrive& drive) const;
   double over_horizon_rad(const Place& place, const sky::Bearing& bearing) const;
-  double light_left_s(std::int64_t from_ms, double enough_s) const;
+  std::optional<double> light_left_s(std::int64_t from_ms, double enough_s) const;
   double air_c(std::int64_t utc_ms) const;
 
   const Departure& departure_;
   const sim::PowerSupply* supply_;
   std::vector<Place> places_;
   Pace usual_, slow_;
-  std::int64_t noon_ms_ = 0;  // of the day of the first departure
 };
 
 }  // namespace slipway::planner

@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 constexpr double kStandstillShare = 0.01;  // of the wheels' cruise rate; slower wheels count as passing rest
 constexpr double kStallShare = 0.2;        // of the commanded rate; a slower wheel counts as stalled
 constexpr double kCoarseSpeeds = 30.0;  // cruise speeds that the tolerance of speeds and rates is relative to
+constexpr double kHalting_s = 1.0;      // in which a wheel that was braked forgets which way it rolled
 constexpr double kStop_nm_rad = 2e4, kStopDamping_s_rad = 1.0;
 constexpr double kSunkenAxle_radii = 0.929;  // 1 - cos of the laws' maximum entry angle
 constexpr double kForgotten_lengths = 8.0;   // body lengths; the wheels cannot return to ruts farther away
@@ -43,6 +44,7 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
                      gripping_load_kg_m2())),
       steering_control_(control_of(rover.steering.value_or(rover.drive), 0.0)),
       halted_rad_(rover.wheels.size()),
+      halted_rate_rad_s_(rover.wheels.size()),
       commanded_(rover.wheels.size()),
       angles_(bodies_.tree.joint_count()),
       rates_(bodies_.tree.joint_count()),
@@ -129,6 +131,8 @@ void RoverDynamics::halt(const PerWheel<double>& steered_rad) {
   driver_ = nullptr;
   commanded_t_ = -1.0;
   halted_rad_ = steered_rad;
+  halted_rate_rad_s_ = last_rate_rad_s_;
+  halted_t_ = last_t_;
 }
 
 void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
@@ -161,6 +165,7 @@ void RoverDynamics::find_kinematics(const double* y) {
     at.velocity.noalias() = R_MB_ * dynamics_.point_velocity(joint, p_B);
     at.rate_rad_s = rates_[joint];
     at.braked = braked_ && rover_.wheels[k].drive == WheelDrive::kDriven;
+    at.halted_turning = halted_rate_rad_s_[k] / standstill_rad_s_ * halted_share_;
     at.slip_x = y[slips_at_ + 2 * k];
     at.slip_y = y[slips_at_ + 2 * k + 1];
   }
@@ -239,6 +244,7 @@ Vector3d RoverDynamics::gravity_M() const {
 
 void RoverDynamics::set_commanded(double t, const double* y) {
   braked_ = !driver_ || driver_->halts(t);
+  halted_share_ = std::exp(-std::max(0.0, t - halted_t_) / kHalting_s);
   if (driver_) {
     const LegPlace at = driver_->uses_pose() ? place(y) : LegPlace{};
     if (t == commanded_t_ && at.across_m == commanded_at_.across_m &&

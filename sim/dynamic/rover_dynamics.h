@@ -147,7 +147,8 @@ class RoverDynamics {
 
   const LegDriver* driver_ = nullptr;
   Pose2 leg_start_;
-  PerWheel<double> halted_rad_;
+  PerWheel<double> halted_rad_, halted_rate_rad_s_;
+  double halted_t_ = 0.0, halted_share_ = 1.0;
   PerWheel<WheelCommand> commanded_;
   bool braked_ = true;
   // Of the commands above: most of a Jacobian's evaluations change neither.

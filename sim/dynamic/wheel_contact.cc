@@ -141,7 +141,7 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   one.leftward = -at.slip_y;
   put_in_track(place.numbers, track_factors(place.soil, contact.driven_on), one);
   const double turning = place.locked ? kBlended_standstills * place.commanded_direction
-                         : at.braked  ? 0.0
+                         : at.braked  ? at.halted_turning
                                       : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0
                        : turning <= -kBlended_standstills ? 0.0

@@ -19,7 +19,9 @@ struct WheelKinematics {
   Eigen::Vector3d axle = Eigen::Vector3d::UnitY();     // unit, to the left
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // of the centre, m/s
   double rate_rad_s = 0.0;
-  bool braked = false;                // it does not roll, however its brake gives way
+  bool braked = false;  // it does not roll, however its brake gives way
+  // Of a braked wheel: what is left of its rate when it halted, over standstill.
+  double halted_turning = 0.0;
   double slip_x = 0.0, slip_y = 0.0;  // the contact's own states, see below
 };
 
@@ -55,9 +57,9 @@ struct ContactState {
 //
 // In steady motion s equals the slip, the dampings vanish and the forces are those of the quasi-static level at
 // any speed. At rest s is an elastic displacement, so that a braked rover stands on a slope. Where w passes
-// through 0 the two directions of rolling blend over `standstill_rad_s`. A braked wheel is in the middle of that
-// whichever way its brake gives, or each swing of the brake would turn the soil's resistance round and be fed by
-// it. A locked wheel has its commanded direction.
+// through 0 the two directions of rolling blend over `standstill_rad_s`. A braked wheel keeps the
+// blend that it halted with and forgets it, whichever way its brake gives, or each swing of the brake would turn the
+// soil's resistance round and be fed by it. A locked wheel has its commanded direction.
 //
 //   L    r theta_f of the wheel at rest       chi, c   damping ratios kNormalDamping and kTangentialDamping of
 //        under an equal share of the weight            that wheel's mass on that soil

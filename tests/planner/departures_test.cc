@@ -24,9 +24,9 @@ std::shared_ptr<const sky::Sky> a_few_days() {
     const double tilt = rad_from_deg(30.0);
     const Eigen::Vector3d sun(-std::sin(turned), -std::cos(turned) * std::sin(tilt),
                               std::cos(turned) * std::cos(tilt));
-    samples.push_back({minutes * 60'000LL, sky::bearing_of(sun), {}});
+    samples.push_back({minutes * 60'000LL, sky::bearing_of(sun), {}, 1.5});
   }
-  return std::make_shared<sky::SkyTable>(std::move(samples), 1.5);
+  return std::make_shared<sky::SkyTable>(std::move(samples));
 }
 
 // 100 m on level ground in two hours with 40 W of the motors; of 100 draws one of ten takes half as long

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,7 +21,10 @@ double rate_after(const DriveMotor& motor, double commanded, double load_nm, dou
   for (double t = 0.0; t < seconds; t += kStep_s) {
     const MotorDrive drive = control.keep_rate(commanded, rate, integral);
     integral += kStep_s * control.integral_rate_v_s(drive, commanded, rate);
-    rate += kStep_s * (drive.torque_nm - load_nm * std::tanh(rate / 0.003)) / inertia;
+    rate += kStep_s * drive.torque_nm / inertia;
+    // Dry friction takes what it can, and turns nothing round: an explicit step would chatter.
+    const double taken = kStep_s * load_nm / inertia;
+    rate -= std::clamp(rate, -taken, taken);
   }
   return rate;
 }
