@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/angle.h"
 #include "dem/body_degrees.h"
+#include "sky/mars_time.h"
 
 namespace slipway::api {
 namespace {
@@ -38,6 +40,14 @@ double body_radius_m(const std::string& body) {
   return found != nullptr ? found->radius_m : std::numeric_limits<double>::infinity();
 }
 
+double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
+  constexpr double kStep_m = 10.0;
+  const auto here = degrees_at(site, {x_m, y_m, {}}), north = degrees_at(site, {x_m, y_m + kStep_m, {}});
+  if (!here || !north) return 0.0;
+  const double east = wrapped_rad(rad_from_deg(north->x - here->x)) * std::cos(rad_from_deg(here->y));
+  return std::atan2(east, rad_from_deg(north->y - here->y));
+}
+
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
   const planner::Waypoint middle{
@@ -57,12 +67,20 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
   constexpr int kMostCells = 1024;  // along a side of the ground around
   auto departure = std::make_shared<planner::Departure>(request);
   if (const Body* const body = body_of(site.info().body)) departure->day_s = body->day_s;
-  if (!request.table.empty())
-    departure->sky = std::make_shared<sky::SkyTable>(request.table);
-  else if (const auto degrees = degrees_at(site, start))
-    departure->sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
-  else
+  std::shared_ptr<const sky::Sky> sky;
+  if (!request.table.empty()) {
+    std::vector<sky::SkySample> table = request.table;
+    if (site.info().body == "Mars")
+      for (sky::SkySample& sample : table)
+        sample.sun_distance_au = sky::mars_time(sample.utc_ms, 0.0).sun_distance_au;
+    sky = std::make_shared<sky::SkyTable>(std::move(table));
+  } else if (const auto degrees = degrees_at(site, start)) {
+    sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
+  } else {
     return fail(ErrorCode::kInvalidRequest, "the start has no longitude and latitude on this map");
+  }
+  departure->sky =
+      std::make_shared<sky::SkyOverMap>(std::move(sky), map_north_rad(site, start.x_m, start.y_m));
   const dem::GridGeometry& whole = site.info().geometry;
   std::shared_ptr<const dem::Terrain> around;
   // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.

@@ -14,6 +14,9 @@ namespace slipway::api {
 // Mean radius of a body by its name in ElevationInfo; infinite where it is not known.
 double body_radius_m(const std::string& body);
 
+// How far the map's north stands clockwise of the true one at a place of the map; 0 in a local frame.
+double map_north_rad(const TerrainSite& site, double x_m, double y_m);
+
 // Why the directions of sun and Earth over a terrain can't be computed; nothing on Mars.
 std::optional<std::string> why_no_sky(const TerrainSite& site);
 

@@ -173,9 +173,15 @@ void RequestCheck::departure(const DriveAssumptions& drive) {
   if (!drive.departure || already_faulty("/departure")) return;
   if (site_ != nullptr && drive.departure->table.empty())
     if (auto why = why_no_sky(*site_)) add(ErrorCode::kInvalidRequest, "/departure/sky", std::move(*why));
-  if (rover_ != nullptr && !rover_->power && drive.departure->rules.min_charge)
-    add(ErrorCode::kInvalidRequest, "/departure/min_charge_percent",
-        fmt::format("the file of {} has no power, of which a charge could be told", rover_->name));
+  if (rover_ == nullptr || rover_->power) return;
+  const DepartureRequest& of = *drive.departure;
+  for (const auto& [given, key] : {std::pair{of.rules.min_charge.has_value(), "min_charge_percent"},
+                                   {of.charge != 1.0, "charge_percent"},
+                                   {of.optical_depth != 0.0, "optical_depth"},
+                                   {of.air.has_value(), "air"}})
+    if (given)
+      add(ErrorCode::kInvalidRequest, fmt::format("/departure/{}", key),
+          fmt::format("the file of {} has no power, of which a charge could be told", rover_->name));
 }
 
 void RequestCheck::failed_wheels(const DriveAssumptions& drive) {

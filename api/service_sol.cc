@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPlanned = 0.85;        // of the work
 constexpr double kLikelyEnough = 0.005;  // a halt on a stretch
-constexpr double kCorner_m = 1.0;        // between corners of the way back
+constexpr double kCorner_m = 1.0;        // between corners of the way back, at least
 
 PlaceOnWay place_at(const sim::DrivePrediction& drive, double at_m, std::string why) {
   const auto& stations = drive.stations;
@@ -52,15 +52,10 @@ std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& dep
                                                   const sim::DrivePrediction& drive) {
   if (!rules.arrive_by) return std::nullopt;
   const planner::TimedDrive& timed = departures.best ? *departures.best : departures.nearest;
-  const double whole = static_cast<double>(timed.arrives_ms - timed.departs_ms),
-               slow = static_cast<double>(timed.arrives_late_ms - timed.departs_ms);
-  const planner::TimedStation* last = nullptr;
-  for (const planner::TimedStation& at : timed.stations) {
-    const double late_ms =
-        static_cast<double>(at.utc_ms - timed.departs_ms) * (whole > 0.0 ? slow / whole : 1.0);
-    if (static_cast<double>(timed.departs_ms) + late_ms <= static_cast<double>(*rules.arrive_by)) last = &at;
-  }
-  if (last == nullptr || last == &timed.stations.back()) return std::nullopt;
+  if (timed.stations.empty() || timed.arrives_late_ms <= *rules.arrive_by) return std::nullopt;
+  const planner::TimedStation* last = &timed.stations.front();
+  for (const planner::TimedStation& at : timed.stations)
+    if (at.late_ms <= *rules.arrive_by) last = &at;
   return place_at(drive, last->distance_m,
                   fmt::format("here the rover is at the slow pace at {}", utc_text(*rules.arrive_by)));
 }
@@ -75,10 +70,12 @@ CheckRequest back_from(const PlanRequest& plan, const sim::DrivePrediction& driv
   check.drive = plan.drive;
   check.drive.departure.reset();
   check.manner.backwards = true;
-  double last = from.at_m + 2.0 * kCorner_m;
+  const double apart =
+      std::max(kCorner_m, 2.0 * from.at_m / static_cast<double>(RequestLimits::kPathCorners));
+  double last = from.at_m + 2.0 * apart;
   for (auto station = drive.stations.rbegin(); station != drive.stations.rend(); ++station) {
     const double at = station->station.distance_m;
-    if (at > from.at_m + 1e-9 || (last - at < kCorner_m && at > 0.0)) continue;
+    if (at > from.at_m + 1e-9 || (last - at < apart && at > 0.0)) continue;
     if (!check.path.empty() && last - at < 1e-6) continue;
     check.path.push_back({station->station.pose.x_m, station->station.pose.y_m, {}});
     last = at;

@@ -224,11 +224,11 @@ std::optional<double> Horizon::elevation_rad(double x_m, double y_m, double eye_
   return std::atan(best);
 }
 
-std::optional<std::vector<double>> Horizon::all_around_rad(double x_m, double y_m, double eye_m,
-                                                           int count) const {
+std::optional<std::vector<double>> Horizon::all_around_rad(double x_m, double y_m, double eye_m, int count,
+                                                           double first_rad) const {
   std::vector<double> all;
   for (int k = 0; k < count; ++k) {
-    const auto one = elevation_rad(x_m, y_m, eye_m, 2.0 * std::numbers::pi * k / count);
+    const auto one = elevation_rad(x_m, y_m, eye_m, first_rad + 2.0 * std::numbers::pi * k / count);
     if (!one) return std::nullopt;
     all.push_back(*one);
   }

@@ -23,8 +23,9 @@ class Horizon {
   // The elevation [rad] over the level, in a direction clockwise from north, as seen from `eye_m` over the
   // ground at (x, y); -pi/2 where no ground lies that way. Empty where the place has no height.
   std::optional<double> elevation_rad(double x_m, double y_m, double eye_m, double azimuth_rad) const;
-  // The same in `count` directions at equal distances, the first to the north, clockwise.
-  std::optional<std::vector<double>> all_around_rad(double x_m, double y_m, double eye_m, int count) const;
+  // The same in `count` directions at equal distances, clockwise; the first to the north, or clockwise of it.
+  std::optional<std::vector<double>> all_around_rad(double x_m, double y_m, double eye_m, int count,
+                                                    double first_rad = 0.0) const;
 
  private:
   class Field;

@@ -73,7 +73,8 @@ class Planning {
     if (!simulated) return fail(simulated.error());
     const Result<void> verified = verify(plan);
     if (!verified) return fail(verified.error());
-    set_departures(plan);
+    const Result<void> timed = set_departures(plan);
+    if (!timed) return fail(timed.error());
     if (progress_.cancelled()) return cancelled();
     say_why_fewer(*proposal, plan);
     progress_.report("ranking", 0.98);
@@ -224,11 +225,20 @@ class Planning {
   }
 
   // When each route may be driven; one that no departure allows is ranked behind the others.
-  void set_departures(Plan& plan) const {
-    if (!problem_.departure) return;
+  Result<void> set_departures(Plan& plan) {
+    if (!problem_.departure) return {};
     StageProgress stage(progress_, "looking for departures", kSimulated, kSimulated);
     for (Route& route : plan.routes) add_departures(problem_, route.prediction, route.decision, stage);
     rank(plan);
+    // What is first now is driven in motion too, where the best are.
+    for (std::size_t done = plan.routes.size(); problem_.verify > 0 && !plan.routes.empty(); ++done) {
+      Route& first = plan.routes.front();
+      if (first.dynamic || done > 2 * plan.routes.size()) return {};
+      if (auto driven = verify_one(done, first); !driven) return driven;
+      add_departures(problem_, first.prediction, first.decision, stage);
+      rank(plan);
+    }
+    return {};
   }
 
   // What would make the first route better; only what was tried.

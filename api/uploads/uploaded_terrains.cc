@@ -54,13 +54,14 @@ Result<TerrainImportReport> take_terrain(UploadFolder& uploads, const TerrainOrd
     return fail(room.error());
   const UploadOrigin origin{.owner = order.asker.name, .at_ms = now_ms(), .from = order.elevation};
   // A worker that died after the terrain was in its place does it again, too.
-  import.may_replace = [&order](const std::filesystem::path& there) {
+  const auto may_replace = [&order](const std::filesystem::path& there) {
     return may_change(read_origin(there), order.asker);
-};
-import.origin = origin_document(origin, import.name);
-auto report = import_terrain(import, catalogue, progress);
-if (!report) return fail(in_words_of_request(report.error()));
-return report;
-}  // namespace slipway::api
+  };
+  import.may_replace = may_replace;
+  import.origin = origin_document(origin, import.name);
+  auto report = import_terrain(import, catalogue, progress);
+  if (!report) return fail(in_words_of_request(report.error()));
+  return report;
+}
 
 }  // namespace slipway::api

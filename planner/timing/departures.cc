@@ -28,9 +28,8 @@ bool keeps_rules(const TimedDrive& drive) {
 std::pair<int, std::ptrdiff_t> broken(const TimedDrive& drive) {
   int worst = 0;
   for (const JudgedRule& rule : drive.rules) worst = std::max(worst, severity(rule.verdict));
-  return {worst, std::count_if(drive.rules.begin(), drive.rules.end(), [](const JudgedRule& rule) {
-            return rule.verdict != Verdict::kGo;
-          })};
+  return {worst, std::count_if(drive.rules.begin(), drive.rules.end(),
+                               [](const JudgedRule& rule) { return rule.verdict != Verdict::kGo; })};
 }
 
 // More charge would make it keep the rules.
@@ -57,7 +56,8 @@ std::int64_t noon_of(const Departure& departure) {
 }
 
 // The moment nearest to `bad` at which the rules hold.
-std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad, const Progress& progress) {
+std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad,
+                     const Progress& progress) {
   while (std::abs(bad - good) > kNarrowed_ms && !progress.cancelled()) {
     const std::int64_t middle = good + (bad - good) / 2;
     (keeps_rules(drive.at(middle)) ? good : bad) = middle;
@@ -77,7 +77,8 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
   for (std::size_t k = 0; k < tried.size(); k += step) {
     const TimedDrive& direct = tried[k];
     if (!lacks_charge_alone(direct)) continue;
-    progress.report("looking for a halt to charge", static_cast<double>(k) / static_cast<double>(tried.size()));
+    progress.report("looking for a halt to charge",
+                    static_cast<double>(k) / static_cast<double>(tried.size()));
     for (int place = 0; place < kHaltPlaces; ++place)
       for (const double hours : kHaltHours) {
         if (progress.cancelled()) return std::nullopt;
@@ -103,13 +104,13 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
     const double longest_s =
         std::min(kLongest_s, 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0) +
                                  departure.rules.light_left_s.value_or(0.0));
-    at_hand.sky = std::make_shared<sky::SkyTable>(sky::table_of(
-        *departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
-        departure.rules.min_earth_rad.has_value()));
+    at_hand.sky = std::make_shared<sky::SkyTable>(
+        sky::table_of(*departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
+                      departure.rules.min_earth_rad.has_value()));
   }
   const DriveInTime drive(at_hand, supply, prediction, progress);
   Departures found;
-  const auto step_ms = std::llround(1000.0 * departure.every_s);
+  const std::int64_t step_ms = std::llround(1000.0 * departure.every_s);
   const double span_ms = static_cast<double>(departure.to_ms - departure.from_ms) + 1.0;
   for (std::int64_t at = departure.from_ms; !progress.cancelled();
        at = std::min(at + step_ms, departure.to_ms)) {

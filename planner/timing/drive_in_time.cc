@@ -108,7 +108,8 @@ double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bea
 
 double DriveInTime::air_c(std::int64_t utc_ms) const {
   constexpr double kWarmest = 2.0 / 24.0;  // behind noon
-  const double phase = static_cast<double>(utc_ms - departure_.noon_ms) / 1000.0 / departure_.day_s - kWarmest;
+  const double phase =
+      static_cast<double>(utc_ms - departure_.noon_ms) / 1000.0 / departure_.day_s - kWarmest;
   const double mean = 0.5 * (departure_.air->warmest_c + departure_.air->coldest_c);
   return mean + 0.5 * (departure_.air->warmest_c - departure_.air->coldest_c) *
                     std::cos(2.0 * std::numbers::pi * phase);
@@ -215,8 +216,9 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     const double limit = 100.0 * rules.min_charge.value_or(0.0);
     add("charge", sun_is_known || supply_->array_m2 <= 0.0, 100.0 * usual.least_charge,
         100.0 * least.least_charge, limit, "%", least.charge_at.at_m,
-        fmt::format("the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
-                    100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m, limit));
+        fmt::format(
+            "the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
+            100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m, limit));
   }
   const auto in_sight = [&](const char* name, const char* what, bool is_known, const Course::Least& a,
                             const Course::Least& b, double limit_rad) {
@@ -236,12 +238,13 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
              slow.earth_rad, *rules.min_earth_rad);
   if (rules.light_left_s) {
     const double enough = *rules.light_left_s;
-    const auto at_usual = light_left_s(usual.arrives_ms, enough), at_slow = light_left_s(slow.arrives_ms, enough);
+    const auto at_usual = light_left_s(usual.arrives_ms, enough),
+               at_slow = light_left_s(slow.arrives_ms, enough);
     const double left = at_slow.value_or(0.0);
     add("light_left", at_usual && at_slow, at_usual.value_or(0.0) / kHour_s, left / kHour_s, enough / kHour_s,
         "h", {},
-        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h", left / kHour_s,
-                                    enough / kHour_s)
+        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h",
+                                    left / kHour_s, enough / kHour_s)
                       : fmt::format("{:.2f} h of light or more are left at the arrival", enough / kHour_s));
   }
   if (rules.arrive_by) {

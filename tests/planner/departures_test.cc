@@ -117,11 +117,14 @@ TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
     const bool inside = at >= found.windows[0].from_ms && at <= found.windows[0].to_ms;
     const auto distance =
         std::min(std::abs(at - found.windows[0].from_ms), std::abs(at - found.windows[0].to_ms));
-    if (distance > 3000) EXPECT_EQ(holds(drive.at(at)), inside) << static_cast<double>(at) / 3.6e6;
+    if (distance > 3000) {
+      EXPECT_EQ(holds(drive.at(at)), inside) << static_cast<double>(at) / 3.6e6;
+    }
   }
   // The slow pace takes three hours, and the sun sets at 18 h.
   EXPECT_LT(found.windows[0].to_ms, 14 * kHour_ms + 60'000);
-  DriveVerdict verdict{.verdict = Verdict::kGo};
+  DriveVerdict verdict;
+  verdict.verdict = Verdict::kGo;
   judge_departures(found, verdict);
   EXPECT_EQ(verdict.verdict, Verdict::kGo);
 }
@@ -134,7 +137,8 @@ TEST(Departures, WithoutAWindowItIsANoGoWithTheReason) {
   const Departures found = departures_of(departure, nullptr, prediction, progress);
   EXPECT_TRUE(found.windows.empty());
   EXPECT_FALSE(found.best);
-  DriveVerdict verdict{.verdict = Verdict::kGo};
+  DriveVerdict verdict;
+  verdict.verdict = Verdict::kGo;
   judge_departures(found, verdict);
   EXPECT_EQ(verdict.verdict, Verdict::kNoGo);
   ASSERT_FALSE(verdict.reasons.empty());
@@ -158,6 +162,48 @@ TEST(Departures, AHaltInTheSunLetsTheBatteryCharge) {
   EXPECT_GT(found.halt->hours, 0.0);
   EXPECT_TRUE(holds(*found.best));
   EXPECT_GE(found.best->least_charge_low, 0.4);
+}
+
+TEST(Departures, WhereTheSkyIsNotKnownItsRulesAreOpen) {
+  Departure departure = a_day();
+  departure.sky = std::make_shared<sky::SkyTable>(
+      std::vector<sky::SkySample>{{0, {0.0, 1.0}, {}, 1.5}, {kHour_ms, {0.1, 1.0}, {}, 1.5}});
+  departure.from_ms = departure.to_ms = kHour_ms / 2;
+  departure.rules.min_sun_rad = 0.0;
+  departure.rules.arrive_by = 9 * kHour_ms;
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  DriveVerdict verdict;
+  verdict.verdict = Verdict::kGo;
+  judge_departures(found, verdict);
+  EXPECT_EQ(verdict.verdict, Verdict::kUnknown);
+  departure.rules.min_sun_rad.reset();
+  EXPECT_EQ(departures_of(departure, nullptr, prediction, progress).windows.size(), 1U);
+}
+
+TEST(Departures, AnEmptyBatteryIsANoGoWithoutBeingAsked) {
+  Departure departure = a_day();
+  departure.to_ms = 0;
+  departure.charge = 0.05;
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures found = departures_of(departure, &kCells, prediction, progress);
+  EXPECT_TRUE(found.windows.empty());
+}
+
+TEST(Departures, TheLastMomentIsTriedToo) {
+  Departure departure = a_day();
+  departure.from_ms = 0;
+  departure.to_ms = 50 * 60'000;
+  departure.every_s = 1800.0;
+  departure.rules.arrive_by = 3 * kHour_ms + 40 * 60'000;  // the slow pace takes three hours
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  ASSERT_EQ(found.windows.size(), 1U);
+  EXPECT_NEAR(static_cast<double>(found.windows[0].to_ms), 40 * 60'000.0, 2000.0);
+  EXPECT_EQ(found.tried.size(), 3U);
 }
 
 TEST(Departures, BehindAWallTheSunIsNotInSight) {

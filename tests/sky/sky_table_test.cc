@@ -17,7 +17,7 @@ Bearing bearing(double azimuth_deg, double elevation_deg) {
 }
 
 TEST(SkyTable, GoesThroughNorthBetweenItsMoments) {
-  const SkyTable table({{0, bearing(350.0, 1.0), {}}, {1000, bearing(10.0, 1.0), {}}});
+  const SkyTable table({{0, bearing(350.0, 1.0), {}, 1.0}, {1000, bearing(10.0, 1.0), {}, 1.0}});
   const auto sun = table.sun(500);
   ASSERT_TRUE(sun);
   EXPECT_NEAR(std::sin(sun->azimuth_rad), 0.0, 1e-9);
@@ -28,8 +28,15 @@ TEST(SkyTable, GoesThroughNorthBetweenItsMoments) {
 }
 
 TEST(SkyTable, RefusesTimesThatDoNotRise) {
-  EXPECT_THROW(SkyTable({{5, bearing(0.0, 1.0), {}}, {5, bearing(1.0, 1.0), {}}}), std::invalid_argument);
-  EXPECT_THROW(SkyTable({{5, bearing(0.0, 1.0), {}}}), std::invalid_argument);
+  EXPECT_THROW(SkyTable({{5, bearing(0.0, 1.0), {}, 1.0}, {5, bearing(1.0, 1.0), {}, 1.0}}),
+               std::invalid_argument);
+  EXPECT_THROW(SkyTable({{5, bearing(0.0, 1.0), {}, 1.0}}), std::invalid_argument);
+}
+
+TEST(SkyOverMap, CountsFromTheMapsNorth) {
+  const auto table = std::make_shared<SkyTable>(
+      std::vector<SkySample>{{0, bearing(10.0, 5.0), {}, 1.0}, {1000, bearing(10.0, 5.0), {}, 1.0}});
+  EXPECT_NEAR(deg_from_rad(SkyOverMap(table, rad_from_deg(30.0)).sun(0)->azimuth_rad), 340.0, 1e-9);
 }
 
 TEST(SkyTable, OfMarsIsNearTheFormulasBetweenItsMoments) {

@@ -3229,10 +3229,10 @@ export interface components {
             from: string;
             /**
              * Format: date-time
-             * @description The last; the first when absent
+             * @description The last, within 100 days; the first when absent
              */
             to?: string;
-            /** @description Between the departures that are tried, at most 2000 [min]; the ends of windows are then found to a second */
+            /** @description Between the departures that are tried, at most 500 [min]; the ends of windows are then found to a second */
             every_min?: number;
             /** @description Of the battery at the departure [%] */
             charge_percent?: number;
@@ -3391,7 +3391,7 @@ export interface components {
         };
         /** @description What one rule says of a drive: the probabilities of a halt, of being immobilised and of embedding, and every limit that breaks on the mean soils */
         JudgedRule: {
-            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics" | "charge" | "sun" | "earth" | "light_left" | "arrival" | "sky";
+            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics" | "charge" | "sun" | "earth" | "light_left" | "arrival";
             verdict: components["schemas"]["Verdict"];
             /** @description A sentence without its full stop */
             words: string;

@@ -146,8 +146,9 @@ Result<std::string> look(const SkyOptions& options) {
   if (options.horizon) {
     if (!options.place)
       return fail(ErrorCode::kInvalidRequest, "a horizon is seen from a place: give --place");
-    answer.horizon_rad =
-        horizon.all_around_rad(options.place->x_m, options.place->y_m, options.eye_m, options.directions);
+    const double north = api::map_north_rad(*answer.place.site, options.place->x_m, options.place->y_m);
+    answer.horizon_rad = horizon.all_around_rad(options.place->x_m, options.place->y_m, options.eye_m,
+                                                options.directions, -north);
     if (!answer.horizon_rad)
       return fail(ErrorCode::kOffMap, fmt::format("the terrain has no height at ({:g}, {:g})",
                                                   options.place->x_m, options.place->y_m));
