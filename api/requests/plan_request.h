@@ -93,7 +93,7 @@ struct RequestLimits {
   static constexpr int kRoutes = 8;
   static constexpr double kDepartureDays = 100.0;  // from the first to the last
   static constexpr std::size_t kSkyMoments = 20'000;
-  static constexpr int kDepartures = 500;   // that are tried
+  static constexpr int kDepartures = 500;  // that are tried
   static constexpr int kDraws = 2000;
   static constexpr int kMaxSol = 1'000'000;
 };

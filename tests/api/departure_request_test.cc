@@ -51,8 +51,10 @@ TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
   ASSERT_TRUE(answer) << answer.error().detail;
   const json::JsonValue& decision = *answer->find("decision");
   EXPECT_EQ(decision.find("verdict")->text, "no_go");
-  EXPECT_NE(decision.find("reasons")->elements[0].text.find("no departure"), std::string::npos)
-      << decision.find("reasons")->elements[0].text;
+  bool said = false;
+  for (const json::JsonValue& reason : decision.find("reasons")->elements)
+    said |= reason.text.find("no departure") != std::string::npos;
+  EXPECT_TRUE(said);
 }
 
 TEST(DepartureRequest, EveryFaultHasItsPlace) {
@@ -63,7 +65,7 @@ TEST(DepartureRequest, EveryFaultHasItsPlace) {
             Places{"/departure/to"});
   EXPECT_EQ(kYard.faults_of(
                 departing(R"("from":"2026-07-01T00:00:00Z","to":"2027-07-01T00:00:00Z","every_min":1)")),
-            Places{"/departure/every_min"});
+            (Places{"/departure/to", "/departure/every_min"}));
   EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-07-01T00:00:00Z","speed":1)")),
             Places{"/departure/speed"});
   EXPECT_EQ(kYard.faults_of(departing(std::string(R"("from":"2026-07-09T00:00:00Z",)") + kSky)),

@@ -80,8 +80,8 @@ TEST(RoverFile, WhatTheDynamicRungReadsComesBackAsItWas) {
         R"("masses":{"wheel_kg":5.5,"rocker_kg":6.25,"bogie_kg":3,"body_inertia_kg_m2":[20,30,35.5]},"wheels":)"},
        {R"("bogie_wheels":["m","r"])",
         R"("bogie_wheels":["m","r"],"differential_stiffness_nm_per_deg":1200.5,"differential_damping_nms_per_deg":11,"rocker_stop_deg":30,"bogie_stop_deg":45.5)"},
-       {R"(},"belly_clearance_m")",
-        R"(,"rotor_inertia_kg_m2":1e-06},"steering":{"torque_constant_nm_per_a":0.01,"gear_ratio":4000,"gear_efficiency":0.5,"no_load_current_a":0.02,"max_wheel_rate_deg_s":20,"bus_voltage_v":28},"belly_clearance_m")"}});
+       {R"(},"power")",
+        R"(,"rotor_inertia_kg_m2":1e-06},"steering":{"torque_constant_nm_per_a":0.01,"gear_ratio":4000,"gear_efficiency":0.5,"no_load_current_a":0.02,"max_wheel_rate_deg_s":20,"bus_voltage_v":28},"power")"}});
   const auto rover = json::read_rover_file(text);
   ASSERT_TRUE(rover) << rover.error().detail;
   EXPECT_EQ(rover->masses.wheel_kg, 5.5);

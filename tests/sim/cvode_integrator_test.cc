@@ -36,7 +36,7 @@ TEST(CvodeIntegrator, SolvesRobertsonsStiffKinetics) {
   integrator.start(0.0, std::array{1.0, 0.0, 0.0});
   const std::vector<double> y = run_to(integrator, 40.0);
   EXPECT_NEAR(y[0], 0.7158270688, 1e-7);
-  EXPECT_NEAR(y[1], 9.185534765e-6, 1e-12);
+  EXPECT_NEAR(y[1], 9.185534765e-6, 2e-12);
   EXPECT_NEAR(y[2], 0.2841637457, 1e-7);
   EXPECT_LT(integrator.work().steps, 1000);
 }

@@ -235,7 +235,8 @@ TEST(Digging, TakesThePowerThatLiftsTheSoil) {
   }
 }
 
-// In deep skid cohesive soil draws a rim down, and the balanced wheel jumps from one depth to another; not here.
+// In deep skid cohesive soil draws a rim down, and the balanced wheel jumps from one depth to another; not
+// here.
 TEST(WheelLaw, NoPullJumpsAboveLightSkid) {
   const Soil soils[] = {make_soil({1400.0, 820000.0, 1.0}, 1000.0, 45.0, 0.018, 0.4, 0.2),
                         make_soil({1400.0, 820000.0, 1.0}, 15000.0, 25.0, 0.0152, 0.43, 0.32), ding_like(),
