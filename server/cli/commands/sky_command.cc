@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -134,7 +136,8 @@ Result<std::string> look(const SkyOptions& options) {
   const bool wants_horizon = options.horizon || !options.horizon_map.empty();
   if (!answer.place.degrees && !wants_horizon)
     return fail(ErrorCode::kInvalidRequest,
-                answer.place.site ? *api::why_no_sky(*answer.place.site)
+                answer.place.site ? api::why_no_sky(*answer.place.site)
+                                        .value_or("the place has no longitude and latitude on this map")
                                   : std::string("give a place: --lonlat, or --terrain with --place"));
   if (!wants_horizon) return printed(answer, options.json);
   if (!answer.place.site)
