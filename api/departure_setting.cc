@@ -28,9 +28,8 @@ const Body* body_of(const std::string& name) {
   return found == std::end(kBodies) ? nullptr : found;
 }
 
-std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const planner::Waypoint& place) {
-  return dem::BodyDegrees(site.info().crs_wkt, site.info().body, site.info().geometry.extent())
-      .to_degrees({place.x_m, place.y_m});
+dem::BodyDegrees degrees_of(const TerrainSite& site) {
+  return dem::BodyDegrees(site.info().crs_wkt, site.info().body, site.info().geometry.extent());
 }
 
 }  // namespace
@@ -42,7 +41,8 @@ double body_radius_m(const std::string& body) {
 
 double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
   constexpr double kStep_m = 10.0;
-  const auto here = degrees_at(site, {x_m, y_m, {}}), north = degrees_at(site, {x_m, y_m + kStep_m, {}});
+  const dem::BodyDegrees degrees = degrees_of(site);
+  const auto here = degrees.to_degrees({x_m, y_m}), north = degrees.to_degrees({x_m, y_m + kStep_m});
   if (!here || !north) return 0.0;
   const double east = wrapped_rad(rad_from_deg(north->x - here->x)) * std::cos(rad_from_deg(here->y));
   return std::atan2(east, rad_from_deg(north->y - here->y));
@@ -50,9 +50,8 @@ double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
 
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
-  const planner::Waypoint middle{
-      0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m), {}};
-  if (site.info().body == "Mars" && degrees_at(site, middle)) return std::nullopt;
+  const dem::MapPlace middle{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
+  if (site.info().body == "Mars" && degrees_of(site).to_degrees(middle)) return std::nullopt;
   return fmt::format(
       "the terrain lies {}, where the sun's direction is not computed: give it as a table of moments, each "
       "with at, sun_azimuth_deg and sun_elevation_deg",
@@ -74,7 +73,7 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
       for (sky::SkySample& sample : table)
         sample.sun_distance_au = sky::mars_time(sample.utc_ms, 0.0).sun_distance_au;
     sky = std::make_shared<sky::SkyTable>(std::move(table));
-  } else if (const auto degrees = degrees_at(site, start)) {
+  } else if (const auto degrees = degrees_of(site).to_degrees({start.x_m, start.y_m})) {
     sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
   } else {
     return fail(ErrorCode::kInvalidRequest, "the start has no longitude and latitude on this map");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/documents/check_request.h"
+#include "api/documents/departure.h"
 #include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/drive_so_far.h"

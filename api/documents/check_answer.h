@@ -12,6 +12,9 @@ namespace slipway::api::json {
 // its series. The same answer gives the same bytes. Throws std::domain_error where a number is not finite.
 std::string write_check_answer(const CheckAnswer& answer, StationDetail detail = StationDetail::kThinned);
 
+// One rule of a verdict.
+void write_judged_rule(Writer& w, const planner::JudgedRule& rule);
+
 // "decision": the verdict with its reasons.
 void write_decision(Writer& w, const planner::DriveVerdict& decision);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "api/documents/check_answer.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
 #include "core/utc.h"
@@ -105,13 +106,8 @@ void write_drive_with_stations(Writer& w, const planner::TimedDrive& drive) {
   w.key("rules").begin_array();
   for (const planner::JudgedRule& rule : drive.rules) write_judged_rule(w, rule);
   w.end_array();
-  // As many as a chart shows.
-  constexpr std::size_t kMostShown = 400;
-  const std::size_t step = 1 + drive.stations.size() / kMostShown;
   w.key("stations").begin_array();
-  for (std::size_t k = 0; k < drive.stations.size(); ++k) {
-    if (k % step != 0 && k + 1 != drive.stations.size()) continue;
-    const planner::TimedStation& at = drive.stations[k];
+  for (const planner::TimedStation& at : drive.stations) {
     w.begin_object().metres("distance_m", at.distance_m);
     write_time(w, "at", at.utc_ms);
     w.boolean("lit", at.is_lit).angle_deg("sun_over_horizon_deg", at.sun_over_horizon_rad);

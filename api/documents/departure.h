@@ -16,7 +16,4 @@ void write_departure(Writer& w, const DepartureRequest& departure);
 // "departures" of a decision: windows, the best departure with what is along it, and each that was tried.
 void write_departures(Writer& w, const planner::Departures& departures);
 
-// One rule of a verdict.
-void write_judged_rule(Writer& w, const planner::JudgedRule& rule);
-
 }  // namespace slipway::api::json

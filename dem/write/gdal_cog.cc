@@ -17,6 +17,7 @@
 #include "dem/gdal_memory_file.h"
 #include "dem/gdal_session.h"
 #include "dem/write/cog.h"
+#include "dem/write/gdal_cog_copy.h"
 
 namespace slipway::dem {
 namespace {
@@ -145,13 +146,20 @@ void register_cog() {
 // Copies the tiles to a file of this name.
 Result<void> copy_to(const std::string& name, const RasterLayer& layer, const TileStore& tiles,
                      std::size_t threads, const GdalSession& session, Progress& progress) {
-  register_cog();
   TilesDataset source(layer, tiles, 0);
   CPLStringList options;
   options.AddNameValue("BLOCKSIZE", std::to_string(kTileSide).c_str());
-  options.AddNameValue("COMPRESS", "DEFLATE");
   options.AddNameValue("LEVEL", "6");
   options.AddNameValue("PREDICTOR", layer.of_classes ? "NO" : "YES");
+  return copy_as_cog(name, source, std::move(options), threads, session, progress);
+}
+
+}  // namespace
+
+Result<void> copy_as_cog(const std::string& name, GDALDataset& source, CPLStringList options,
+                         std::size_t threads, const GdalSession& session, Progress& progress) {
+  register_cog();
+  options.AddNameValue("COMPRESS", "DEFLATE");
   options.AddNameValue("BIGTIFF", "IF_SAFER");
   options.AddNameValue("NUM_THREADS", threads == 0 ? "ALL_CPUS" : std::to_string(threads).c_str());
   StageProgress told{&progress, "writing the map"};
@@ -165,7 +173,11 @@ Result<void> copy_to(const std::string& name, const RasterLayer& layer, const Ti
   return fail(ErrorCode::kUnwritableFile, "The map could not be written: " + session.complaints());
 }
 
-}  // namespace
+void remove_unfinished_cog(const std::filesystem::path& file) {
+  std::error_code ignored;
+  for (const char* const ending : {"", ".ovr.tmp", ".msk.ovr.tmp"})
+    std::filesystem::remove(file.string() + ending, ignored);
+}
 
 Result<void> write_cog(const std::filesystem::path& out, const RasterLayer& layer, const TileStore& tiles,
                        std::size_t threads, Progress& progress) {
@@ -174,10 +186,7 @@ Result<void> write_cog(const std::filesystem::path& out, const RasterLayer& laye
   const WritingAdmission writing(whole.parent_path());
   auto written = copy_to(whole.string(), layer, tiles, threads, session, progress);
   if (written) return {};
-  std::error_code ignored;
-  std::filesystem::remove(whole, ignored);
-  for (const char* const ending : {".ovr.tmp", ".msk.ovr.tmp"})
-    std::filesystem::remove(whole.string() + ending, ignored);
+  remove_unfinished_cog(whole);
   return written;
 }
 

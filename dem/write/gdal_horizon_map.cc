@@ -1,19 +1,18 @@
 #include <cpl_string.h>
 #include <fmt/format.h>
-#include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/angle.h"
 #include "core/parallel_for.h"
-#include "dem/gdal_import.h"
 #include "dem/gdal_session.h"
+#include "dem/write/gdal_cog_copy.h"
 #include "dem/write/horizon_map.h"
 
 namespace slipway::dem {
@@ -52,7 +51,6 @@ Result<void> write(const std::filesystem::path& out, const std::filesystem::path
                    const Horizon& horizon, const GridGeometry& cells, const std::string& crs_wkt,
                    double eye_m, int directions, std::size_t threads, const GdalSession& session,
                    Progress& progress) {
-  GDALRegister_COG();
   GDALDriverManager& drivers = *GetGDALDriverManager();
   const char* const tiled[] = {"TILED=YES", "INTERLEAVE=BAND", "BIGTIFF=IF_SAFER", "SPARSE_OK=YES", nullptr};
   GDALDatasetUniquePtr plain(drivers.GetDriverByName("GTiff")->Create(
@@ -74,21 +72,10 @@ Result<void> write(const std::filesystem::path& out, const std::filesystem::path
     return filled;
   plain->FlushCache();
   CPLStringList options;
-  options.AddNameValue("COMPRESS", "DEFLATE");
   options.AddNameValue("LEVEL", "1");
   options.AddNameValue("PREDICTOR", "YES");
   options.AddNameValue("OVERVIEW_RESAMPLING", "NEAREST");
-  options.AddNameValue("BIGTIFF", "IF_SAFER");
-  options.AddNameValue("NUM_THREADS", threads == 0 ? "ALL_CPUS" : std::to_string(threads).c_str());
-  StageProgress told{&progress, "writing the map"};
-  CPLErrorReset();
-  GDALDatasetUniquePtr made(drivers.GetDriverByName("COG")->CreateCopy(out.c_str(), plain.get(), FALSE,
-                                                                       options.List(), &report_stage, &told));
-  const bool complete = made != nullptr;
-  made.reset();
-  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the map was given up");
-  if (complete && CPLGetLastErrorType() < CE_Failure) return {};
-  return fail(ErrorCode::kUnwritableFile, "The map could not be written: " + session.complaints());
+  return copy_as_cog(out.string(), *plain, std::move(options), threads, session, progress);
 }
 
 }  // namespace
@@ -114,8 +101,7 @@ Result<void> write_horizon_map(const std::filesystem::path& out, const Horizon& 
   std::error_code ignored;
   std::filesystem::remove(uncompressed, ignored);
   if (written) return {};
-  for (const char* const ending : {"", ".ovr.tmp", ".msk.ovr.tmp"})
-    std::filesystem::remove(whole.string() + ending, ignored);
+  remove_unfinished_cog(whole);
   return written;
 }
 
