@@ -228,6 +228,15 @@ Attempt with_held_tracks(RoverBalance& balance, const Primary& primary, Vector& 
   return {Outcome::kNotConverged, -1};
 }
 
+// The wheel that the ground would have to hold down even while the rover rests: past its tipping angle no soil
+// that only pushes has a balance.
+std::optional<int> wheel_that_lifts_at_rest(RoverBalance& balance) {
+  const RoverBalance::Loads loads = balance.resting_loads_n();
+  Eigen::Index lightest = 0;
+  if (loads.minCoeff(&lightest) >= -kBalanceTolerance * balance.weight_n()) return std::nullopt;
+  return static_cast<int>(lightest);
+}
+
 }  // namespace
 
 Primary primary_of(const DriveCommand& command) {
@@ -262,8 +271,10 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
   if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
   const Attempt attempt = bracketed_in_contact(balance, primary, x);
-  const bool gave_up = attempt.outcome == Outcome::kNotConverged;
-  return gave_up && balance.follows_tracks() ? with_held_tracks(balance, primary, x) : attempt;
+  if (attempt.outcome != Outcome::kNotConverged) return attempt;
+  if (const std::optional<int> wheel = wheel_that_lifts_at_rest(balance))
+    return {Outcome::kWheelLifted, *wheel};
+  return balance.follows_tracks() ? with_held_tracks(balance, primary, x) : attempt;
 }
 
 }  // namespace slipway::sim

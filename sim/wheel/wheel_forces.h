@@ -82,8 +82,13 @@ struct WheelForces {
 // format. Quadrature: arc_quadrature.h, error below 1e-5 of the load (tests). Compiled for several instruction sets
 // (wheel_kernel.h).
 //
-// Properties: W rises with theta_f for a driven wheel without a crust (a braked rim in cohesive soil is drawn down:
-// it carries most somewhere above the axle, and may carry nothing); all scale with b when k_c = 0; mirror:
+//   sigma cos + tau_x sin >= 0 everywhere: where a braked rim shears downwards, tau_x ends there
+//
+// The last: soil that would have to hang on to the rim breaks off. Without it what is borne fell with depth, and the
+// pull of a balanced wheel in deep skid jumped by up to 17 loads.
+//
+// Properties: W rises with theta_f for a driven wheel without a crust (a braked one with a great c1 + c2 may carry
+// most somewhere above the axle); all scale with b when k_c = 0; mirror:
 // leftward -> -leftward flips L only.
 // clang-format on
 WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,

@@ -169,7 +169,8 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
   if (parts.closures && !holds_in_all_lanes(at.slip_directed == V(0.0)))
     direct_by_slip(laws, in, at, j_x, to_entry, cosine, m_x, m_y);
   const V strength = weight * in.rim_friction * (in.cohesion + sigma * at.tan_phi);
-  const V tau = strength * m_x;
+  // No part of the rim is drawn down: soil that would have to hang on to it breaks off.
+  const V tau = max(strength * m_x, -weight * sigma * cosine / max(sine, V(1e-9)));
   sum.tau += tau;
   sum.tau_cos += tau * cosine;
   sum.tau_sin += tau * sine;

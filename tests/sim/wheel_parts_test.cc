@@ -30,14 +30,14 @@ TEST(EntryAngle, TheBalancedWheelCarriesItsLoad) {
   }
 }
 
+// Its own grip draws no part of the rim down: deeper soil carries more.
 TEST(EntryAngle, ABrakedWheelInCohesiveSoilStandsAtTheShallowestDepthThatCarriesIt) {
-  // It carries most above the axle: W rises, falls, and is below the load again at the axle.
   Soil soil = ding_like();
   soil.cohesion_pa = 20000.0;
   soil.friction_angle_rad = rad_from_deg(40.0);
   const WheelMotion motion{speed_ratio_from_slip(-0.9), 0.0};
   const double load = 200.0;
-  ASSERT_LT(wheel_forces(kWheel, soil, kMaxEntryAngleRad, motion).vertical_n, load);
+  EXPECT_GT(wheel_forces(kWheel, soil, kMaxEntryAngleRad, motion).vertical_n, load);
   const auto theta = balanced_entry_angle_rad(kWheel, soil, load, motion);
   ASSERT_TRUE(theta) << theta.error().detail;
   EXPECT_NEAR(wheel_forces(kWheel, soil, *theta, motion).vertical_n, load, 1e-9 * load);
