@@ -4,15 +4,21 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/random.h"
 #include "dem/elevation_source.h"
+#include "dem/horizon.h"
+#include "dem/horizon_sweep.h"
 #include "dem/synthetic_terrain.h"
 
 namespace slipway::dem {
@@ -160,4 +166,45 @@ void open_and_read_300_x_300_of_16384_x_16384(benchmark::State& state) {
 BENCHMARK(open_and_read_300_x_300_of_16384_x_16384)->Unit(benchmark::kMillisecond);
 
 }  // namespace
+// The horizon in one direction from every cell of rough ground: by a ray of its own, and by lines over all of
+// it at once.
+std::shared_ptr<const Terrain> rough_ground() {
+  const GridGeometry g{512, 512, 0.0, 512.0, 1.0, 1.0};
+  std::vector<float> heights;
+  for (int row = 0; row < g.rows; ++row)
+    for (int column = 0; column < g.columns; ++column)
+      heights.push_back(static_cast<float>(8.0 * std::sin(column / 61.0) * std::cos(row / 47.0) +
+                                           std::sin(row / 5.0) * std::cos(column / 7.0) +
+                                           0.1 * std::sin(1.3 * row * column)));
+  std::vector<std::uint8_t> all(heights.size(), 1);
+  return std::make_shared<const Terrain>(g, std::move(heights), std::move(all));
+}
+
+void horizon_by_rays(benchmark::State& state) {
+  const auto ground = rough_ground();
+  const Horizon horizon(ground, 3'389'500.0);
+  const GridGeometry& cells = ground->geometry();
+  for ([[maybe_unused]] auto _ : state)
+    for (int row = 0; row < cells.rows; row += 8)
+      for (int column = 0; column < cells.columns; column += 8) {
+        const Eigen::Vector2d at = cells.centre_m({row, column});
+        benchmark::DoNotOptimize(horizon.elevation_rad(at.x(), at.y(), 1.0, 1.0));
+      }
+  state.SetItemsProcessed(state.iterations() * cells.rows * cells.columns / 64);
+}
+BENCHMARK(horizon_by_rays);
+
+void horizon_by_sweep(benchmark::State& state) {
+  const auto ground = rough_ground();
+  const HorizonSweep sweep(*ground, 3'389'500.0);
+  const Eyes eyes = eyes_over(*ground, ground->geometry(), 1.0);
+  std::vector<float> tangents(eyes.heights_m.size());
+  for ([[maybe_unused]] auto _ : state) {
+    std::fill(tangents.begin(), tangents.end(), -std::numeric_limits<float>::infinity());
+    sweep.raise(eyes, 1.0, 1, tangents);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tangents.size()));
+}
+BENCHMARK(horizon_by_sweep);
+
 }  // namespace slipway::dem

@@ -51,7 +51,8 @@ class Horizon::Field {
     if (rows_ < 2 || columns_ < 2) return from_m;
     const GridGeometry& geometry = terrain_->geometry();
     const Eigen::Vector2d start = geometry.fractional_index(ray.x_m, ray.y_m);
-    const Line line{start.x(), start.y(), -ray.north / geometry.cell_y_m, ray.east / geometry.cell_x_m};
+    const Line line{start.x(), start.y(), Line::rate(-ray.north / geometry.cell_y_m),
+                    Line::rate(ray.east / geometry.cell_x_m)};
     const auto [enters, leaves] = line.inside(rows_ - 1, columns_ - 1);
     const double nudge = 1e-7 * std::min(geometry.cell_x_m, geometry.cell_y_m);
     double d = std::max(from_m, enters) + nudge;
@@ -83,6 +84,9 @@ class Horizon::Field {
   struct Line {
     double row, column, rows_m, columns_m;  // where it begins, and of a metre
 
+    // Of a ray along a row or a column, where rounding has left a trace of the other: the ray would creep
+    // along the border of two patches.
+    static double rate(double per_m) { return std::abs(per_m) < 1e-10 ? 0.0 : per_m; }
     int row_at(double d, int most) const {
       return std::clamp(static_cast<int>(std::floor(row + rows_m * d)), 0, most);
     }

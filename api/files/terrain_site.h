@@ -42,8 +42,7 @@ class TerrainSite {
 
   const std::filesystem::path& folder() const { return folder_; }
   // 16 hexadecimal digits: another terrain of this name has another one, and the same files have the same on
-  // every machine. Of the bytes of its files, but of one above 4 MB of its size alone: what was imported says
-  // in its provenance which bytes that one is made of.
+  // every machine. Of the bytes of its files; of one above 4 MB of its size and 256 pieces all over it.
   const std::string& version() const { return version_; }
   const TerrainDescription& description() const { return description_; }
   const dem::ElevationInfo& info() const { return elevation_->info(); }

@@ -68,12 +68,13 @@ std::optional<std::size_t> ground_under(const PreparedStation& station) {
 }
 
 ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravity_m_s2,
-                    const PreparedDrive& drive, const DriveLimits& limits) {
+                    const PreparedDrive& drive, const DriveLimits& limits, const Progress& progress) {
   ClosureEnd end;
   QuasiStaticSolver solver(rover, gravity_m_s2, Precision::kDraws);
   const StationRules rules(rover, limits);
   PerWheel<Soil> under(rover.wheels.size());
   for (const PreparedStation& station : drive.stations) {
+    if (progress.cancelled()) break;
     for (std::size_t k = 0; k < under.size(); ++k) under[k] = soils.of(station.soil[k]);
     const StationState state = solver.solve(station.stance, under, station.command);
     const auto ground = ground_under(station);
@@ -95,7 +96,8 @@ ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravi
 
 std::optional<ClosureReach> closure_reach(const RoverModel& rover, double gravity_m_s2,
                                           const SoilBeliefs& beliefs, const PreparedDrive& drive,
-                                          const DriveLimits& limits, std::size_t threads) {
+                                          const DriveLimits& limits, std::size_t threads,
+                                          const Progress& progress) {
   bool any = false;
   for (const PreparedStation& station : drive.stations) {
     for (std::size_t k = 0; k < station.soil.size() && !any; ++k)
@@ -106,7 +108,7 @@ std::optional<ClosureReach> closure_reach(const RoverModel& rover, double gravit
   std::array<ClosureEnd, 2> ends;
   parallel_for(ends.size(), threads, [&](std::size_t k) {
     const EndSoils soils(beliefs, k == 0 ? -kReach90 : kReach90);
-    ends[k] = drive_on(soils, rover, gravity_m_s2, drive, limits);
+    ends[k] = drive_on(soils, rover, gravity_m_s2, drive, limits, progress);
   });
   return ClosureReach{ends[0], ends[1]};
 }

@@ -336,7 +336,9 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                      threads, progress, prediction, so_far))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   if (risk.draws > 0)
-    prediction.closures = closure_reach(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, threads);
+    prediction.closures =
+        closure_reach(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, threads, progress);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return prediction;
 }
 

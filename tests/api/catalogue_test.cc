@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "api/files/rover_file.h"
@@ -285,6 +287,26 @@ TEST(Stops, NameRowAndColumnOfEachFault) {
   ASSERT_TRUE(good);
   EXPECT_EQ(good->front().x_m, 2.5);
   EXPECT_EQ(good->front().columns.front(), (std::pair<std::string, std::string>{"sol", "1"}));
+}
+
+// Another map in the place of the first is another version, also where both are large and have one size.
+TEST(Catalogue, ATerrainsVersionIsOfWhatItsFilesHold) {
+  const ScratchFolder folder;
+  copy_small_world(folder.path());
+  const auto yard = folder.path() / "terrains" / "yard", map = yard / "elevation.tif";
+  std::filesystem::resize_file(map, 9'000'000);  // what follows the picture nobody reads
+  const auto version_with = [&](std::streamoff from, std::size_t count) {
+    std::fstream file(map, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(from);
+    file << std::string(count, 'x');
+    file.close();
+    const auto site = TerrainSite::open(yard);
+    return site ? (*site)->version() : site.error().detail;
+  };
+  std::set<std::string> versions{version_with(8'000'000, 0)};
+  EXPECT_TRUE(versions.contains(version_with(8'000'000, 0)));
+  EXPECT_TRUE(versions.insert(version_with(8'999'999, 1)).second);
+  EXPECT_TRUE(versions.insert(version_with(5'000'000, 100'000)).second);
 }
 
 }  // namespace

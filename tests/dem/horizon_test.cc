@@ -10,6 +10,8 @@
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "dem/horizon_sweep.h"
+#include "dem/write/horizon_map.h"
 
 namespace slipway::dem {
 namespace {
@@ -77,6 +79,47 @@ TEST(Horizon, OfAWallIsItsAngleAndOfTheMirroredMapTheSame) {
   EXPECT_NEAR(*east.elevation_rad(60.0, 70.0, 1.0, 0.5 * std::numbers::pi), expected, 1e-3);
   EXPECT_NEAR(*west.elevation_rad(70.0, 70.0, 1.0, 1.5 * std::numbers::pi), expected, 1e-3);
   EXPECT_LT(*east.elevation_rad(60.0, 70.0, 1.0, 1.5 * std::numbers::pi), 0.0);
+}
+
+// From all cells at once, in any direction, over cells that are not square, over the body's bend and by a
+// finer or coarser grid of places.
+TEST(HorizonSweep, IsTheHorizonOfEachPlace) {
+  constexpr GridGeometry kOblong{
+      .rows = 150, .columns = 90, .west_m = 7.0, .north_m = 150.0, .cell_x_m = 1.4, .cell_y_m = 1.0};
+  const auto terrain = sampled(kOblong, hills, [](int row, int column) { return row == 40 && column < 30; });
+  for (const double radius : {kFlat, 2000.0}) {
+    const Horizon horizon(terrain, radius);
+    const HorizonSweep sweep(*terrain, radius);
+    for (const int every : {1, 2, 5}) {
+      const GridGeometry cells = coarser_grid(kOblong, every);
+      const Eyes eyes = eyes_over(*terrain, cells, 1.0);
+      double square = 0.0;
+      int count = 0;
+      for (std::uint64_t k = 0; k < 24; ++k) {
+        const double azimuth = k < 8 ? 0.25 * std::numbers::pi * static_cast<double>(k)
+                                     : 2.0 * std::numbers::pi * random_uniform(k, 3);
+        std::vector<float> tangents(eyes.heights_m.size(), -std::numeric_limits<float>::infinity());
+        sweep.raise(eyes, azimuth, 2, tangents);
+        for (std::size_t cell = 0; cell < tangents.size(); cell += 7) {
+          const auto columns = static_cast<std::size_t>(cells.columns);
+          const Eigen::Vector2d centre =
+              cells.centre_m({static_cast<int>(cell / columns), static_cast<int>(cell % columns)});
+          const auto alone = horizon.elevation_rad(centre.x(), centre.y(), 1.0, azimuth);
+          ASSERT_EQ(alone.has_value(), !std::isnan(eyes.heights_m[cell]));
+          // Where a ray has left the map, the lines beside it may not have.
+          const bool is_on_the_rim =
+              centre.x() < 10.0 || centre.x() > 130.0 || centre.y() < 3.0 || centre.y() > 147.0;
+          if (!alone || is_on_the_rim) continue;
+          const double off = deg_from_rad(std::abs(std::atan(double{tangents[cell]}) - *alone));
+          EXPECT_LT(off, 3.0) << centre.x() << " " << centre.y() << " " << azimuth;
+          square += off * off;
+          ++count;
+        }
+      }
+      // The ground is as rough as can be from cell to cell, by 0.3 m a metre.
+      EXPECT_LT(std::sqrt(square / count), 0.1) << every;
+    }
+  }
 }
 
 TEST(Horizon, GoesOnOverTheGroundAroundTheTerrain) {

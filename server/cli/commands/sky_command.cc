@@ -145,11 +145,12 @@ Result<std::string> look(const SkyOptions& options) {
   const dem::ElevationInfo& info = answer.place.site->info();
   auto terrain = answer.place.site->read_elevation(info.geometry.extent());
   if (!terrain) return fail(terrain.error());
-  const dem::Horizon horizon(*terrain, api::body_radius_m(info.body));
+  const double body_radius_m = api::body_radius_m(info.body);
   if (options.horizon) {
     if (!options.place)
       return fail(ErrorCode::kInvalidRequest, "a horizon is seen from a place: give --place");
     const double north = api::map_north_rad(*answer.place.site, options.place->x_m, options.place->y_m);
+    const dem::Horizon horizon(*terrain, body_radius_m);
     answer.horizon_rad = horizon.all_around_rad(options.place->x_m, options.place->y_m, options.eye_m,
                                                 options.directions, -north);
     if (!answer.horizon_rad)
@@ -164,9 +165,11 @@ Result<std::string> look(const SkyOptions& options) {
     if (std::filesystem::exists(options.horizon_map))
       return fail(ErrorCode::kUnwritableFile, options.horizon_map + " exists already");
     TerminalProgress progress;
-    auto written =
-        dem::write_horizon_map(options.horizon_map, horizon, dem::coarser_grid(info.geometry, every),
-                               info.crs_wkt, options.eye_m, options.directions, 0, progress);
+    const dem::HorizonSweep ground(**terrain, body_radius_m);
+    const dem::Eyes eyes =
+        dem::eyes_over(**terrain, dem::coarser_grid(info.geometry, every), options.eye_m);
+    auto written = dem::write_horizon_map(options.horizon_map, {&ground}, eyes, info.crs_wkt, options.eye_m,
+                                          options.directions, 0, progress);
     if (!written) return fail(written.error());
   }
   return printed(answer, options.json);
@@ -185,13 +188,14 @@ void add_sky_command(CLI::App& app, std::function<int()>& run) {
       command->add_option("--terrain", options->terrain, "the terrain whose place or horizon is asked for");
   add_place(*command, "--place", options->place,
             "x,y in map metres; the middle of the terrain where it is not given");
-  command->add_flag("--horizon", options->horizon, "print the horizon's elevation all around --place")
+  command->add_flag("--horizon", options->horizon, "print the horizon's elevation all around --place, from true north")
       ->needs(terrain);
   CLI::Option* const map =
       command
           ->add_option(
               "--horizon-map", options->horizon_map,
-              "write the horizon from every cell to this file, a GeoTIFF with a band for each direction")
+              "write the horizon from every cell to this file, a GeoTIFF with a band for each direction, "
+              "clockwise from the map's north")
           ->needs(terrain);
   command->add_option("--every", options->every, "cells of the terrain along a side to one of the map")
       ->needs(map)
