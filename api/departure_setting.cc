@@ -40,12 +40,16 @@ double body_radius_m(const std::string& body) {
 }
 
 double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
-  constexpr double kStep_m = 10.0;
+  constexpr double kStep_m = 1.0;
   const dem::BodyDegrees degrees = degrees_of(site);
   const auto here = degrees.to_degrees({x_m, y_m}), north = degrees.to_degrees({x_m, y_m + kStep_m});
   if (!here || !north) return 0.0;
-  const double east = wrapped_rad(rad_from_deg(north->x - here->x)) * std::cos(rad_from_deg(here->y));
-  return std::atan2(east, rad_from_deg(north->y - here->y));
+  // The bearing at which the great circle to the second place begins: right beside a pole, too.
+  const double latitude = rad_from_deg(here->y), latitude_north = rad_from_deg(north->y);
+  const double east = rad_from_deg(north->x - here->x);
+  return std::atan2(std::sin(east) * std::cos(latitude_north),
+                    std::cos(latitude) * std::sin(latitude_north) -
+                        std::sin(latitude) * std::cos(latitude_north) * std::cos(east));
 }
 
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
@@ -66,6 +70,9 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
   constexpr int kMostCells = 1024;  // along a side of the ground around
   auto departure = std::make_shared<planner::Departure>(request);
   if (const Body* const body = body_of(site.info().body)) departure->day_s = body->day_s;
+  if (site.info().body == "Moon" && request.optical_depth > 0.0)
+    return fail(ErrorCode::kInvalidRequest, "the Moon has no air",
+                {{"/departure/optical_depth", "is of an atmosphere, which the Moon has not: leave it out"}});
   std::shared_ptr<const sky::Sky> sky;
   if (!request.table.empty()) {
     std::vector<sky::SkySample> table = request.table;
@@ -73,6 +80,10 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
       for (sky::SkySample& sample : table)
         sample.sun_distance_au = sky::mars_time(sample.utc_ms, 0.0).sun_distance_au;
     sky = std::make_shared<sky::SkyTable>(std::move(table));
+  } else if (auto why = sky::why_not_known(request.from_ms), later = sky::why_not_known(request.to_ms);
+             why || later) {
+    return fail(ErrorCode::kInvalidRequest, why ? *why : *later,
+                {{why ? "/departure/from" : "/departure/to", why ? *why : *later}});
   } else if (const auto degrees = degrees_of(site).to_degrees({start.x_m, start.y_m})) {
     sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
   } else {

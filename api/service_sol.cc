@@ -38,12 +38,10 @@ std::vector<PlaceOnWay> checks_of(const sim::DrivePrediction& drive) {
 }
 
 std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
-  const auto worst = std::max_element(
-      drive.stations.begin(), drive.stations.end(),
-      [](const sim::StationPrediction& a, const sim::StationPrediction& b) { return a.stops < b.stops; });
-  if (worst == drive.stations.end() || worst->stops <= 0.0) return std::nullopt;
-  return place_at(drive, worst->station.distance_m,
-                  fmt::format("{:.1f} % of the draws halt here first", 100.0 * worst->stops));
+  if (!(drive.worst_place.value > 0.0)) return std::nullopt;
+  return place_at(drive, drive.worst_place.distance_m,
+                  fmt::format("{:.1f} % of the draws break a limit or are immobilised here, the most on the way",
+                              100.0 * drive.worst_place.value));
 }
 
 // Where a drive that leaves at the best moment, or the nearest, is at the slow pace when its time is over.

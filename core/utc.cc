@@ -17,9 +17,11 @@ std::string utc_text(std::int64_t ms) {
 }
 
 std::optional<std::int64_t> utc_of_text(std::string_view text) {
-  // 2026-07-01T12:00:00[.123]Z
+  // 2026-07-01T12:00:00[.123]Z, or with +02:00 in the place of Z
   constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:dd";
-  if (text.size() <= kForm.size() || text.back() != 'Z') return std::nullopt;
+  constexpr std::string_view kZone = "+dd:dd";
+  const std::size_t zone_size = !text.empty() && text.back() == 'Z' ? 1 : kZone.size();
+  if (text.size() < kForm.size() + zone_size) return std::nullopt;
   for (std::size_t k = 0; k < kForm.size(); ++k)
     if (kForm[k] == 'd' ? text[k] < '0' || text[k] > '9' : text[k] != kForm[k]) return std::nullopt;
   const auto number = [&](std::size_t first, std::size_t count) {
@@ -27,7 +29,18 @@ std::optional<std::int64_t> utc_of_text(std::string_view text) {
     std::from_chars(text.data() + first, text.data() + first + count, value);
     return value;
   };
-  std::string_view fraction = text.substr(kForm.size(), text.size() - kForm.size() - 1);
+  std::int64_t ahead_min = 0;  // of UTC
+  if (zone_size > 1) {
+    const std::size_t zone = text.size() - zone_size;
+    for (std::size_t k = 1; k < kZone.size(); ++k)
+      if (kZone[k] == 'd' ? text[zone + k] < '0' || text[zone + k] > '9' : text[zone + k] != kZone[k])
+        return std::nullopt;
+    if (text[zone] != '+' && text[zone] != '-') return std::nullopt;
+    const int hours = number(zone + 1, 2), minutes = number(zone + 4, 2);
+    if (hours > 23 || minutes > 59) return std::nullopt;
+    ahead_min = (text[zone] == '-' ? -1 : 1) * (60 * hours + minutes);
+  }
+  std::string_view fraction = text.substr(kForm.size(), text.size() - kForm.size() - zone_size);
   std::int64_t ms = 0;
   if (!fraction.empty()) {
     if (fraction.front() != '.' || fraction.size() < 2) return std::nullopt;
@@ -42,7 +55,7 @@ std::optional<std::int64_t> utc_of_text(std::string_view text) {
   const int hour = number(11, 2), minute = number(14, 2), second = number(17, 2);
   if (!date.ok() || hour > 23 || minute > 59 || second > 59) return std::nullopt;
   const auto days = sys_days(date).time_since_epoch().count();
-  return ((days * 24LL + hour) * 60LL + minute) * 60'000LL + second * 1000LL + ms;
+  return ((days * 24LL + hour) * 60LL + minute - ahead_min) * 60'000LL + second * 1000LL + ms;
 }
 
 std::int64_t now_ms() {

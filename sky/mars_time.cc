@@ -1,5 +1,7 @@
 #include "sky/mars_time.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -152,6 +154,14 @@ MarsTime mars_time(std::int64_t utc_ms, double east_longitude_rad) {
   time.declination_rad = std::asin(0.42565 * std::sin(time.season_rad));
   time.sun_distance_au = orbit.distance_au;
   return time;
+}
+
+std::optional<std::string> why_not_known(std::int64_t utc_ms) {
+  constexpr double kYear_ms = 365.2425 * 86.4e6;
+  const double year = 1970.0 + static_cast<double>(utc_ms) / kYear_ms;
+  if (year >= 1800.0 && year <= 2150.0) return std::nullopt;
+  return fmt::format("sun and Earth over Mars are computed from 1800 to 2150, not for the year {:.0f}",
+                     std::floor(year));
 }
 
 Bearing mars_sun(std::int64_t utc_ms, double east_longitude_rad, double latitude_rad) {

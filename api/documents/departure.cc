@@ -64,6 +64,15 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
     if (object.faults().size() == before && !departure.table.empty() &&
         sample.utc_ms <= departure.table.back().utc_ms)
       moment.fault("at", "the moments of a sky must rise in time");
+    constexpr double kWidestCos = -0.999;  // between two directions almost opposite lies no great circle
+    const auto are_opposite = [](const sky::Bearing& a, const sky::Bearing& b) {
+      return sky::towards(a).dot(sky::towards(b)) < kWidestCos;
+    };
+    if (!departure.table.empty() && object.faults().size() == before) {
+      const sky::SkySample& last = departure.table.back();
+      if (are_opposite(last.sun, sample.sun) || (last.earth && sample.earth && are_opposite(*last.earth, *sample.earth)))
+        moment.fault("at", "a direction is opposite to that of the moment before: give moments between them");
+    }
     departure.table.push_back(sample);
   }
   if (object.faults().size() != before || moments.empty()) return;
@@ -74,7 +83,7 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
   if (!has_times) return;
   if (departure.from_ms < departure.table.front().utc_ms || departure.to_ms > departure.table.back().utc_ms)
     object.fault(
-        "sky", fmt::format("its moments run from {} to {}, the departures from {} to {}",
+        "sky", fmt::format("must cover the departures: its moments run from {} to {}, the departures from {} to {}",
                            utc_text(departure.table.front().utc_ms), utc_text(departure.table.back().utc_ms),
                            utc_text(departure.from_ms), utc_text(departure.to_ms)));
 }

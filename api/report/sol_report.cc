@@ -91,7 +91,8 @@ void add_day(ReportPage& page, const JsonValue& departures) {
                   number(drive, "charge_low_percent"), number(drive, "gained_wh"), number(drive, "used_wh"),
                   number(drive, "spilled_wh")));
   if (has(departures, "halt"))
-    page.paragraph(fmt::format("Halt for {:.1f} h at {:.1f} m to charge.",
+    page.paragraph(fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
+                               "day. The commands hold no wait; give it between them.",
                                number(at(departures, "halt"), "hours"),
                                number(at(departures, "halt"), "at_m")));
   page.picture(

@@ -8,6 +8,7 @@
 #include "planner/judge/drive_verdict.h"
 #include "planner/judge/verdict_words.h"
 #include "planner/problem/terrain_ground.h"
+#include "planner/timing/departures.h"
 
 namespace slipway::planner {
 namespace {
@@ -64,7 +65,9 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
         risk_of_drive(problem.risk, shorter.back().distance_m, shorter.size()), problem.threads, progress,
         problem.conditions);
     if (!predicted) return std::nullopt;
-    if (judge_drive(problem, *predicted).verdict != Verdict::kGo) continue;
+    DriveVerdict judged = judge_drive(problem, *predicted);
+    add_departures(problem, *predicted, judged, progress);
+    if (judged.verdict != Verdict::kGo) continue;
     const sim::PathStation& end = shorter.back();
     Advice advice = advice_at(Advice::Kind::kShorterDrive, end.distance_m, end.pose);
     advice.words = fmt::format(

@@ -28,7 +28,7 @@ struct AirTemperature {
 // When a drive may begin, and under what sky. Times are milliseconds of UTC since 1970.
 struct Departure {
   std::int64_t from_ms = 0, to_ms = 0;
-  double every_s = 900.0;      // between the departures that are tried; windows are then narrowed to a second
+  double every_s = 900.0;      // between the departures that are told of; the rules are looked at each minute
   double charge = 1.0;         // of the battery at the departure, share of what it holds
   double optical_depth = 0.0;  // of the atmosphere
   std::optional<AirTemperature> air = {};
@@ -80,7 +80,7 @@ struct Departures {
   std::optional<TimedDrive> best;        // the one that keeps most in the battery; nothing where no window is
   std::optional<ChargingHalt> halt = {};  // that `best` needs
   TimedDrive nearest;                     // where there is no window: what fails least, else the best
-  std::vector<TimedDrive> tried;          // without stations, by rising departure
+  std::vector<TimedDrive> tried;          // without stations, by rising departure, as often as asked for
 };
 
 }  // namespace slipway::planner

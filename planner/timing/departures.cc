@@ -18,6 +18,8 @@ constexpr std::size_t kHaltDepartures = 100;   // that are tried with a halt
 constexpr double kLongest_s = 60.0 * 86400.0;  // beyond it nothing is known of the sky
 constexpr std::array<double, 10> kHaltHours{0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0, 48.0};
 constexpr std::int64_t kNarrowed_ms = 1000;
+constexpr double kLook_ms = 60'000.0;  // between moments at which the rules are looked at
+constexpr double kMostLooks = 10'000.0;
 
 bool keeps_rules(const TimedDrive& drive) {
   return std::all_of(drive.rules.begin(), drive.rules.end(),
@@ -110,29 +112,35 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
   }
   const DriveInTime drive(at_hand, supply, prediction, progress);
   Departures found;
-  const std::int64_t step_ms = std::llround(1000.0 * departure.every_s);
   const double span_ms = static_cast<double>(departure.to_ms - departure.from_ms) + 1.0;
-  for (std::int64_t at = departure.from_ms; !progress.cancelled();
-       at = std::min(at + step_ms, departure.to_ms)) {
-    progress.report("looking for departures", static_cast<double>(at - departure.from_ms) / span_ms);
-    found.tried.push_back(drive.at(at));
-    if (at >= departure.to_ms) break;
-  }
-  std::vector<TimedDrive>& tried = found.tried;
-  if (tried.empty()) return found;
-  for (std::size_t k = 0; k < tried.size(); ++k) {
-    if (!keeps_rules(tried[k])) continue;
-    const std::size_t first = k;
-    while (k + 1 < tried.size() && keeps_rules(tried[k + 1])) ++k;
-    DepartureWindow window{tried[first].departs_ms, tried[k].departs_ms};
-    if (first > 0) window.from_ms = edge_of(drive, window.from_ms, tried[first - 1].departs_ms, progress);
-    if (k + 1 < tried.size()) window.to_ms = edge_of(drive, window.to_ms, tried[k + 1].departs_ms, progress);
-    found.windows.push_back(window);
-  }
+  const std::int64_t step_ms = std::llround(1000.0 * departure.every_s);
+  const auto looks = static_cast<std::int64_t>(
+      std::ceil(static_cast<double>(step_ms) / std::max(kLook_ms, span_ms / kMostLooks)));
   const auto is_nearer = [](const TimedDrive& a, const TimedDrive& b) {
     return std::pair(broken(a), -a.least_charge_low) < std::pair(broken(b), -b.least_charge_low);
   };
-  const auto nearest = std::min_element(tried.begin(), tried.end(), is_nearer);
+  std::optional<TimedDrive> nearest;
+  std::optional<std::int64_t> before;  // the moment looked at before this one
+  bool held = false;                   // the rules, then
+  for (std::int64_t k = 0; !progress.cancelled(); ++k) {
+    const std::int64_t at = std::min(departure.from_ms + k * step_ms / looks, departure.to_ms);
+    progress.report("looking for departures", static_cast<double>(at - departure.from_ms) / span_ms);
+    TimedDrive timed = drive.at(at);
+    const bool holds = keeps_rules(timed);
+    if (holds && !held)
+      found.windows.push_back({before ? edge_of(drive, at, *before, progress) : at, at});
+    else if (!holds && held)
+      found.windows.back().to_ms = edge_of(drive, *before, at, progress);
+    if (holds) found.windows.back().to_ms = at;
+    held = holds;
+    before = at;
+    if (!nearest || is_nearer(timed, *nearest)) nearest = timed;
+    const bool is_last = at >= departure.to_ms;
+    if (k % looks == 0 || is_last) found.tried.push_back(std::move(timed));
+    if (is_last) break;
+  }
+  const std::vector<TimedDrive>& tried = found.tried;
+  if (tried.empty()) return found;
   found.nearest = drive.at(nearest->departs_ms, true);
   if (!found.windows.empty()) {
     found.best = found.nearest;
@@ -161,9 +169,12 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (departures.halt) {
-    verdict.reasons.push_back(
-        fmt::format("departing at {} the rover must halt for {:.1f} h at {:.1f} m to charge",
-                    utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m));
+    std::string words =
+        fmt::format("departing at {} the rover must wait for {:.1f} h at {:.1f} m to charge, without which no "
+                    "departure keeps the rules of the day; its commands hold no wait",
+                    utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m);
+    const bool decides = verdict.verdict == Verdict::kGo;
+    verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (!departures.windows.empty()) {
     const DepartureWindow& first = departures.windows.front();
     verdict.reasons.push_back(fmt::format(

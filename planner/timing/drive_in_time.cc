@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -18,7 +19,9 @@ constexpr double kSunAtEarth_w_m2 = 1361.0;  // at 1 au [Kopp and Lean 2011]
 constexpr double kHour_s = 3600.0;
 constexpr double kHaltStep_s = 300.0;
 constexpr double kEye_m = 1.0;  // the height of cells and cameras over the ground
-constexpr int kDirections = 72;
+constexpr int kDirections = 72, kFineDirections = 1440;
+// So close to the horizon of the coarse directions a body is compared with that of the fine ones.
+constexpr double kCloseToHorizon_rad = 0.15;
 constexpr std::size_t kMostPlaces = 400;
 constexpr double kHidden_rad = -0.5 * std::numbers::pi;  // the elevation of what the ground hides
 constexpr double kWholeWay = 0.999;                      // a draw that came so far came to the end
@@ -69,6 +72,8 @@ DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* sup
     Place place{at.station.distance_m,
                 at.elapsed_s,
                 since_s > 0.0 ? motors_j / since_s : at.state.electric_power_w,
+                at.station.pose.x_m,
+                at.station.pose.y_m,
                 rotation_MB(at.state.attitude).col(2),
                 {}};
     since_s = motors_j = 0.0;
@@ -102,8 +107,28 @@ void DriveInTime::set_paces(const sim::DrivePrediction& prediction) {
 double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bearing) const {
   if (place.horizon_rad.empty()) return bearing.elevation_rad;
   // Ground below the level hides nothing that is above it, and lights nothing below.
-  return bearing.elevation_rad -
-         std::max(0.0, dem::horizon_between_rad(place.horizon_rad, bearing.azimuth_rad));
+  const auto over = [&](double horizon_rad) { return bearing.elevation_rad - std::max(0.0, horizon_rad); };
+  const double coarse = over(dem::horizon_between_rad(place.horizon_rad, bearing.azimuth_rad));
+  if (std::abs(coarse) > kCloseToHorizon_rad) return coarse;
+  return over(fine_horizon_rad(place, bearing.azimuth_rad));
+}
+
+// Between the two nearest fine directions.
+double DriveInTime::fine_horizon_rad(const Place& place, double azimuth_rad) const {
+  constexpr double kApart_rad = 2.0 * std::numbers::pi / kFineDirections;
+  if (place.fine_rad.empty())
+    place.fine_rad.assign(kFineDirections, std::numeric_limits<float>::quiet_NaN());
+  const double at = std::fmod(azimuth_rad / kApart_rad + kFineDirections, double{kFineDirections});
+  const auto looked_at = [&](std::size_t k) {
+    float& known = place.fine_rad[k % kFineDirections];
+    if (std::isnan(known))
+      known = static_cast<float>(
+          *departure_.horizon->elevation_rad(place.x_m, place.y_m, kEye_m, kApart_rad * static_cast<double>(k)));
+    return double{known};
+  };
+  const auto k = static_cast<std::size_t>(at);
+  const double share = at - std::floor(at);
+  return (1.0 - share) * looked_at(k) + share * looked_at(k + 1);
 }
 
 double DriveInTime::air_c(std::int64_t utc_ms) const {
@@ -184,13 +209,26 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
 
 // How long the sun stays over the horizon of the last place, up to `enough_s`; nothing where it is not known.
 std::optional<double> DriveInTime::light_left_s(std::int64_t from_ms, double enough_s) const {
-  constexpr double kStep_s = 60.0;
-  for (double s = 0.0; s < enough_s; s += kStep_s) {
+  constexpr double kStep_s = 60.0, kNarrowed_s = 1.0;
+  if (places_.empty()) return std::nullopt;
+  const auto is_lit = [&](double s) -> std::optional<bool> {
     const auto sun = departure_.sky->sun(after(from_ms, s));
-    if (!sun || places_.empty()) return std::nullopt;
-    if (over_horizon_rad(places_.back(), *sun) <= 0.0) return s;
+    if (!sun) return std::nullopt;
+    return over_horizon_rad(places_.back(), *sun) > 0.0;
+  };
+  for (double lit_s = 0.0, s = 0.0;; lit_s = s, s = std::min(s + kStep_s, enough_s)) {
+    const auto lit = is_lit(s);
+    if (!lit) return std::nullopt;
+    if (!*lit) {
+      double dark_s = s;
+      while (dark_s - lit_s > kNarrowed_s) {
+        const double middle = 0.5 * (lit_s + dark_s);
+        (is_lit(middle).value_or(false) ? lit_s : dark_s) = middle;
+      }
+      return lit_s;
+    }
+    if (s >= enough_s) return enough_s;
   }
-  return enough_s;
 }
 
 void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& drive) const {

@@ -18,7 +18,7 @@ struct Light {
 };
 Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_depth);
 
-// A predicted drive as it goes through the day.
+// A predicted drive as it goes through the day. To be used by one thread.
 class DriveInTime {
  public:
   // `supply` null: nothing is known of the rover's power, and charge stays what it is. All must outlive it.
@@ -34,8 +34,11 @@ class DriveInTime {
   // Of a place on the way; motors_w is the mean since the place before.
   struct Place {
     double distance_m, elapsed_s, motors_w;
+    double x_m, y_m;
     Eigen::Vector3d up;               // of the body
-    std::vector<double> horizon_rad;  // empty where it is not known
+    std::vector<double> horizon_rad;  // all around; empty where it is not known
+    // In directions kFineRad apart, each looked at when a body stands close to the horizon there; else NaN.
+    mutable std::vector<float> fine_rad = {};
   };
   // How much longer and with how much more energy than on the mean soils.
   struct Pace {
@@ -48,6 +51,7 @@ class DriveInTime {
              std::vector<TimedStation>* stations) const;
   void judge(const Course& usual, const Course& slow, TimedDrive& drive) const;
   double over_horizon_rad(const Place& place, const sky::Bearing& bearing) const;
+  double fine_horizon_rad(const Place& place, double azimuth_rad) const;
   std::optional<double> light_left_s(std::int64_t from_ms, double enough_s) const;
   double air_c(std::int64_t utc_ms) const;
 

@@ -1,10 +1,16 @@
 // When a drive may begin, from the request to the answer.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <string>
+#include <utility>
 
+#include "api/departure_setting.h"
 #include "api/documents/departure.h"
+#include "api/files/terrain_site.h"
 #include "api/json/parse.h"
+#include "core/angle.h"
 #include "yard_requests.h"
 
 namespace slipway::api {
@@ -55,6 +61,46 @@ TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
   for (const json::JsonValue& reason : decision.find("reasons")->elements)
     said |= reason.text.find("no departure") != std::string::npos;
   EXPECT_TRUE(said);
+}
+
+// To end sooner helps nothing where no departure keeps the rules of the day.
+TEST(DepartureRequest, NoShorterDriveIsAdvisedThatTheDayForbids) {
+  const auto answer = kYard.checked(
+      std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":36,"y_m":30}],"draws":24,"departure":{)") +
+      R"("from":"2026-07-01T01:00:00Z","to":"2026-07-01T03:00:00Z","min_sun_deg":0,)" + kSky + "}");
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const json::JsonValue& decision = *answer->find("decision");
+  EXPECT_EQ(decision.find("verdict")->text, "no_go");
+  for (const json::JsonValue& advice : decision.find("advice")->elements)
+    EXPECT_NE(advice.find("kind")->text, "shorter_drive") << advice.find("words")->text;
+}
+
+TEST(DepartureRequest, TimesMayHaveAZone) {
+  const auto answer = kYard.checked(departing(
+      std::string(R"("from":"2026-07-01T02:00:00+02:00","to":"2026-06-30T20:30:00-04:00",)") + kSky));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const json::JsonValue& tried = *answer->find("decision")->find("departures")->find("tried");
+  EXPECT_EQ(tried.elements.front().find("departs")->text, "2026-07-01T00:00:00.000Z");
+  EXPECT_EQ(tried.elements.back().find("departs")->text, "2026-07-01T00:30:00.000Z");
+}
+
+TEST(DepartureRequest, DirectionsThatNoGreatCircleJoinsAreRefused) {
+  const auto answer = kYard.checked(departing(
+      R"("from":"2026-07-01T02:00:00Z","sky":[)"
+      R"({"at":"2026-07-01T00:00:00Z","sun_azimuth_deg":0,"sun_elevation_deg":-30},)"
+      R"({"at":"2026-07-01T12:00:00Z","sun_azimuth_deg":180,"sun_elevation_deg":30}])"));
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().faults.front().pointer, "/departure/sky/1/at");
+}
+
+// On a polar map the north lies away from the south pole, in every direction.
+TEST(MapNorth, IsThatOfThePlaceBesideAPoleToo) {
+  const auto site = TerrainSite::open(std::filesystem::path(SLIPWAY_DATA_FOLDER) / "terrains" /
+                                      "lunar_south_pole_synthetic");
+  ASSERT_TRUE(site);
+  for (const auto& [x, y] : {std::pair{8500.0, 12500.0}, {30.0, 40.0}, {-3.0, 4.0}, {5.0, -2.0}})
+    EXPECT_NEAR(wrapped_rad(map_north_rad(**site, x, y) + std::atan2(x, y)), 0.0,
+                x > 1000.0 ? 1e-4 : 0.25) << x;
 }
 
 TEST(DepartureRequest, EveryFaultHasItsPlace) {

@@ -129,6 +129,56 @@ TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
   EXPECT_EQ(verdict.verdict, Verdict::kGo);
 }
 
+// Between two departures that are told of the night may lie.
+TEST(Departures, NoWindowReachesOverANight) {
+  Departure departure = a_day();
+  departure.from_ms = 9 * kHour_ms;
+  departure.to_ms = departure.from_ms + 72 * kHour_ms;
+  departure.every_s = 24.0 * kHour_s;
+  departure.rules.min_sun_rad = rad_from_deg(5.0);
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  ASSERT_EQ(found.windows.size(), 4U);
+  for (const DepartureWindow& window : found.windows) EXPECT_LT(window.to_ms - window.from_ms, 9 * kHour_ms);
+  EXPECT_EQ(found.tried.size(), 4U);
+}
+
+TEST(DriveInTime, LightIsLeftUntilTheSunSetsToASecond) {
+  Departure departure = a_day();
+  departure.rules.light_left_s = 20.0 * kHour_s;
+  const sim::DrivePrediction prediction = two_hours();
+  const TimedDrive drive =
+      DriveInTime(departure, nullptr, prediction, kNoProgress).at(9 * kHour_ms + 17'000);
+  ASSERT_EQ(drive.rules.size(), 1U);
+  // It arrives at 12 h and 17 s at the slow pace.
+  EXPECT_NEAR(drive.rules[0].low * kHour_s, 6.0 * kHour_s - 17.0, 2.0);
+}
+
+// A sun that runs along the horizon goes behind a post that stands between two coarse directions.
+TEST(DriveInTime, APostThatIsNarrowHidesALowSun) {
+  const dem::GridGeometry grid{
+      .rows = 200, .columns = 300, .west_m = 0.0, .north_m = 200.0, .cell_x_m = 1.0, .cell_y_m = 1.0};
+  std::vector<float> heights(60'000, 0.0F);
+  // 1.5 deg wide and 5.7 deg high, 100 m away at 92.5 deg.
+  for (int row = 153; row < 156; ++row)
+    for (int column = 150; column < 153; ++column) heights[static_cast<std::size_t>(row * 300 + column)] = 11.0F;
+  Departure departure = a_day();
+  departure.horizon = std::make_shared<dem::Horizon>(
+      std::make_shared<const dem::Terrain>(grid, std::move(heights), std::vector<std::uint8_t>(60'000, 1)),
+      1e9);
+  const auto at = [](double azimuth_deg) { return sky::Bearing{rad_from_deg(azimuth_deg), rad_from_deg(2.0)}; };
+  departure.sky = std::make_shared<sky::SkyTable>(
+      std::vector<sky::SkySample>{{0, at(90.0), {}, 1.0}, {24 * kHour_ms, at(96.0), {}, 1.0}});
+  departure.rules.min_sun_rad = 0.0;
+  departure.to_ms = 20 * kHour_ms;
+  sim::DrivePrediction stands = two_hours();
+  for (auto& station : stands.stations) station.station.pose = {50.5, 50.2, 0.0};
+  NoProgress progress;
+  const Departures found = departures_of(departure, nullptr, stands, progress);
+  EXPECT_EQ(found.windows.size(), 2U);
+}
+
 TEST(Departures, WithoutAWindowItIsANoGoWithTheReason) {
   Departure departure = a_day();
   departure.rules.arrive_by = kHour_ms;

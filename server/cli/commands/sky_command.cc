@@ -123,13 +123,14 @@ std::string printed(const Answer& answer, bool json) {
 
 Result<std::string> look(const SkyOptions& options) {
   Answer answer{.utc_ms = now_ms(), .place = {}};
-  if (!options.at.empty()) {
-    const auto at = utc_of_text(options.at);
+  if (options.at) {
+    const auto at = utc_of_text(*options.at);
     if (!at)
       return fail(ErrorCode::kInvalidRequest,
-                  fmt::format("--at {} is no time of UTC such as 2026-07-01T12:00:00Z", options.at));
+                  fmt::format("--at {} is no time of UTC such as 2026-07-01T12:00:00Z", *options.at));
     answer.utc_ms = *at;
   }
+  if (auto why = sky::why_not_known(answer.utc_ms)) return fail(ErrorCode::kInvalidRequest, std::move(*why));
   auto place = place_of(options);
   if (!place) return fail(place.error());
   answer.place = std::move(*place);

@@ -36,7 +36,8 @@ struct DriveOptions {
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;
-  std::string depart, sky;                     // "FROM" or "FROM..TO"; a file
+  std::optional<std::string> depart;           // "FROM" or "FROM..TO"
+  std::string sky;                             // a file
   std::vector<std::string> day;                // "charge_percent=80": a key of a departure
   std::vector<std::string> keep_out, keep_in;  // "x,y x,y x,y" or a GeoJSON file
   std::vector<std::string> failed;             // "rf=locked"

@@ -18,6 +18,7 @@
 #include "api/files/telemetry_csv.h"
 #include "api/json/parse.h"
 #include "api/requests/plan_request.h"
+#include "core/utc.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/zone_option.h"
 #include "server/cli/terminal/interruption.h"
@@ -86,16 +87,28 @@ Result<void> write_files(Writer& w, const DriveOptions& drive) {
 }
 
 Result<void> write_departure(Writer& w, const DriveOptions& drive) {
-  if (drive.depart.empty()) return {};
-  const std::size_t dots = drive.depart.find("..");
-  w.key("departure").begin_object().text("from", drive.depart.substr(0, dots));
-  if (dots != std::string::npos) w.text("to", drive.depart.substr(dots + 2));
+  if (!drive.depart) return {};
+  const std::size_t dots = drive.depart->find("..");
+  const std::string from = drive.depart->substr(0, dots),
+                    to = dots == std::string::npos ? from : drive.depart->substr(dots + 2);
+  for (const std::string& time : {from, to})
+    if (!utc_of_text(time))
+      return fail(Error{ErrorCode::kInvalidRequest,
+                            fmt::format("--depart {}: \"{}\" is no time; give FROM..TO, such as "
+                                        "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
+                                        *drive.depart, time),
+                            {}});
+  w.key("departure").begin_object().text("from", from).text("to", to);
   for (const std::string& setting : drive.day) write_setting(w, setting);
   if (!drive.sky.empty()) {
     const auto bytes = read_request(drive.sky);
     if (!bytes) return fail(bytes.error());
     const auto moments = api::json::parse(*bytes);
-    if (!moments) return fail(moments.error());
+    if (!moments) {
+      Error error = moments.error();
+      error.detail = drive.sky + ": " + error.detail;
+      return fail(std::move(error));
+    }
     write_value(w.key("sky"), *moments);
   }
   w.end_object();

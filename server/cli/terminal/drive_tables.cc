@@ -223,6 +223,18 @@ std::string departure_lines(const JsonValue& decision) {
   return out;
 }
 
+// Each rule of the day with its verdict, at the best departure or the nearest.
+std::string day_lines(const JsonValue& decision) {
+  const JsonValue* const departures = decision.find("departures");
+  if (departures == nullptr) return {};
+  const JsonValue& best = at(*departures, "best");
+  std::string out;
+  for (const JsonValue& rule : at(is_null(best) ? at(*departures, "nearest") : best, "rules").elements)
+    out += fmt::format("Rule of the day: {}: {}\n", text(rule, "words"),
+                       planner::verdict_words(text(rule, "verdict")));
+  return out;
+}
+
 // Behind the end of the path, beside it, and off its heading.
 std::string position_line(const JsonValue& document) {
   const JsonValue& uncertainty = at(document, "position_uncertainty");
@@ -252,7 +264,7 @@ std::string drive_lines(const JsonValue& document, bool why) {
   if (!why) return out + measured_line(document) + unseen_line(document) + "Say more: --why\n";
   const JsonValue& outcomes = at(document, "outcomes");
   out += "\n" + lines(at(decision, "reasons"), "  - ", 1);
-  out += more_figures({{"given", &figures}}) + rules_table(outcomes) + learnt_lines(document);
+  out += more_figures({{"given", &figures}}) + rules_table(outcomes) + day_lines(decision) + learnt_lines(document);
   out += position_line(document);
   out += fmt::format("{:.0f} sols expected until the drive is through, over {:.0f} draws of the ground\n",
                      std::ceil(number(outcomes, "expected_sols") - 1e-9), number(outcomes, "draws"));
