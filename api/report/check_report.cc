@@ -12,6 +12,7 @@
 #include "api/json/writer.h"
 #include "api/report/check_charts.h"
 #include "api/report/route_map.h"
+#include "api/report/verdict_sections.h"
 #include "planner/problem/verdict.h"
 
 namespace slipway::api {
@@ -40,10 +41,7 @@ std::string with_unit(double value, const JsonValue& rule) {
 }
 
 void add_verdict(ReportPage& page, const JsonValue& check) {
-  const std::string& verdict = text(check, "verdict");
-  page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
-                                                            : verdict == "no_go" ? ReportPage::Tone::kBad
-                                                                                 : ReportPage::Tone::kOpen);
+  add_verdict_banner(page, check);
   const JsonValue &figures = at(check, "summary"), &outcomes = at(check, "outcomes");
   const long minutes = std::lround(number(figures, "duration_s") / 60.0);
   page.paragraph(
@@ -54,11 +52,7 @@ void add_verdict(ReportPage& page, const JsonValue& check) {
                   share_words(at(outcomes, "immobilised")), share_words(at(outcomes, "embedding")),
                   number(outcomes, "draws")));
   for (const JsonValue& reason : at(check, "reasons").elements) page.item(reason.text);
-  if (verdict == "go") return;
-  page.section("What would change it");
-  const auto& advice = at(at(check, "decision"), "advice").elements;
-  for (const JsonValue& each : advice) page.item(text(each, "words"));
-  if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
+  add_advice(page, at(check, "decision"));
 }
 
 void add_rules(ReportPage& page, const JsonValue& outcomes) {

@@ -13,6 +13,7 @@
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 #include "api/report/route_map.h"
+#include "api/report/verdict_sections.h"
 #include "core/utc.h"
 #include "planner/problem/verdict.h"
 
@@ -127,6 +128,9 @@ void add_places(ReportPage& page, const JsonValue& sol) {
 
 void add_commands(ReportPage& page, const JsonValue& route) {
   page.section("Commands");
+  if (text(route, "verdict") != "go")
+    page.paragraph("The route is not a GO: these commands are for reading, not for driving.");
+  page.paragraph("Angles and radii are positive to the left.");
   page.table({"command"});
   for (const JsonValue& command : at(route, "commands").elements) {
     std::string words;
@@ -142,18 +146,19 @@ void add_commands(ReportPage& page, const JsonValue& route) {
 Result<std::string> sol_report(const Catalogue& catalogue, std::string_view document) {
   const auto sol = json::parse(document, {.bytes = document.size(), .values = document.size()});
   if (!sol) return fail(sol.error());
-  const std::string& verdict = text(*sol, "verdict");
   ReportPage page(fmt::format("A sol of {} on {}", text(*sol, "rover"), text(*sol, "terrain")));
-  page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
-                                                            : verdict == "no_go" ? ReportPage::Tone::kBad
-                                                                                 : ReportPage::Tone::kOpen);
+  add_verdict_banner(page, *sol);
   for (const JsonValue& reason : at(*sol, "reasons").elements) page.item(reason.text);
   const JsonValue& plan = at(*sol, "plan");
   const auto& summary = at(plan, "summary").elements;
   if (summary.empty()) return page.html();
   const JsonValue& route = summary.front();
+  const JsonValue& decision =
+      at(at(at(at(plan, "routes"), "features").elements.front(), "properties"), "decision");
+  add_advice(page, decision);
   const long minutes = std::lround(number(route, "duration_s") / 60.0);
-  page.paragraph(fmt::format("{:.1f} m in {}:{:02d} h of driving with {:.0f} Wh of the drive motors.",
+  page.paragraph(fmt::format("{:.1f} m in {}:{:02d} h of driving with {:.0f} Wh of the drive motors on the soils as "
+                             "they are believed on average; the day below takes the draws of the ground.",
                              number(route, "length_m"), minutes / 60, minutes % 60,
                              has(route, "energy_wh") ? number(route, "energy_wh") : 0.0));
   json::Writer w;
@@ -161,8 +166,6 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
   auto map = draw_route_map(catalogue, w.take());
   if (!map) return fail(map.error());
   page.picture({"map", *std::move(map)}, "The routes of the plan, by slip");
-  const JsonValue& decision =
-      at(at(at(at(plan, "routes"), "features").elements.front(), "properties"), "decision");
   if (has(decision, "departures")) add_day(page, at(decision, "departures"));
   add_places(page, *sol);
   add_commands(page, route);

@@ -1,0 +1,27 @@
+#include "api/report/verdict_sections.h"
+
+#include "api/json/lookup.h"
+#include "planner/problem/verdict.h"
+
+namespace slipway::api {
+
+using json::at;
+using json::JsonValue;
+using json::text;
+
+void add_verdict_banner(ReportPage& page, const JsonValue& document) {
+  const std::string& verdict = text(document, "verdict");
+  page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
+                                                            : verdict == "no_go" ? ReportPage::Tone::kBad
+                                                                                 : ReportPage::Tone::kOpen);
+}
+
+void add_advice(ReportPage& page, const JsonValue& decision) {
+  if (text(decision, "verdict") == "go") return;
+  page.section("What would change it");
+  const auto& advice = at(decision, "advice").elements;
+  for (const JsonValue& each : advice) page.item(text(each, "words"));
+  if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
+}
+
+}  // namespace slipway::api
