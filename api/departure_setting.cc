@@ -58,20 +58,21 @@ std::optional<std::string> why_no_sky(const TerrainSite& site) {
                          : "on the " + site.info().body);
 }
 
+Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near) {
+  constexpr int kMostCells = 1024;  // along a side
+  const dem::GridGeometry& whole = site.info().geometry;
+  // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
+  if (near.geometry() == whole && !near.is_read_by_tiles()) return std::shared_ptr<const dem::Terrain>();
+  const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
+  return site.read_samples(whole.extent(), step);
+}
+
 Result<std::shared_ptr<const dem::Horizon>> horizon_over(const TerrainSite& site,
                                                          std::shared_ptr<const dem::Terrain> near) {
-  constexpr int kMostCells = 1024;  // along a side of the ground around
-  const dem::GridGeometry& whole = site.info().geometry;
-  std::shared_ptr<const dem::Terrain> around;
-  // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
-  if (!(near->geometry() == whole) || near->is_read_by_tiles()) {
-    const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
-    auto read = site.read_samples(whole.extent(), step);
-    if (!read) return fail(read.error());
-    around = std::move(*read);
-  }
+  auto around = ground_around(site, *near);
+  if (!around) return fail(around.error());
   return std::make_shared<const dem::Horizon>(std::move(near), body_radius_m(site.info().body),
-                                              std::move(around));
+                                              std::move(*around));
 }
 
 Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite& site,

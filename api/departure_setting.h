@@ -20,8 +20,10 @@ double map_north_rad(const TerrainSite& site, double x_m, double y_m);
 // Why the directions of sun and Earth over a terrain can't be computed; nothing on Mars.
 std::optional<std::string> why_no_sky(const TerrainSite& site);
 
-// The horizon of `near` and, beyond it, of the whole terrain in coarser cells. Errors: as of
+// What lies beyond `near`: the whole terrain in coarser cells; null where `near` is all of it. Errors: as of
 // TerrainSite::read_samples.
+Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near);
+// The horizon of both. Errors: the same.
 Result<std::shared_ptr<const dem::Horizon>> horizon_over(const TerrainSite& site,
                                                          std::shared_ptr<const dem::Terrain> near);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "api/departure_setting.h"
 #include "api/sunlight.h"
@@ -70,7 +71,9 @@ Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::
   }
   constexpr double kReach_cells = 128.0;  // around the place in the terrain's own cells
   const double reach_m = kReach_cells * std::max(geometry.cell_x_m, geometry.cell_y_m);
-  const auto horizon = horizon_of(site, {x_m - reach_m, y_m - reach_m, x_m + reach_m, y_m + reach_m});
+  auto near = ground_of(site, {x_m - reach_m, y_m - reach_m, x_m + reach_m, y_m + reach_m});
+  if (!near) return fail(near.error());
+  const auto horizon = horizon_over(site, std::move(*near));
   if (!horizon) return fail(horizon.error());
   PlaceSky sky{x_m, y_m, *degrees, {}};
   const double north = map_north_rad(site, x_m, y_m);

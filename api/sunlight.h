@@ -3,12 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "api/files/terrain_site.h"
 #include "core/result.h"
 #include "dem/grid_geometry.h"
-#include "dem/horizon.h"
+#include "dem/horizon_sweep.h"
 #include "dem/write/rgba_image.h"
 #include "sky/bearing.h"
 
@@ -28,15 +29,28 @@ inline constexpr std::array<SunlitClass, 5> kSunlitClasses{{{0.25, {0x00, 0x22, 
                                                             {1.0, {0xfe, 0xe8, 0x38, 0xb4}}}};
 constexpr std::size_t kMostSuns = 100;
 
-// The horizon of the ground of an extent in cells that are fine enough for its picture, and beyond it of the
-// whole terrain in coarser ones: what lies outside casts shadows into it. Errors: those of
+// The ground of an extent in cells that are fine enough for its picture. Errors: those of
 // TerrainSite::read_samples.
-Result<std::shared_ptr<const dem::Horizon>> horizon_of(const TerrainSite& site, const dem::Extent& extent);
+Result<std::shared_ptr<const dem::Terrain>> ground_of(const TerrainSite& site, const dem::Extent& extent);
 
-// A picture of the extent under suns whose azimuths count from the map's north. Under one: shadow, and
-// transparent where the ground is lit; under several: in which share of them it is. Transparent where the
-// terrain has no height. The ground is lit where the sun stands over the level and over the ground's horizon.
-dem::RgbaImage draw_sunlight(const dem::Horizon& horizon, const dem::Extent& extent,
-                             const std::vector<sky::Bearing>& suns);
+// What casts shadows: ground that is looked at and, beyond it, coarser ground. Thread-safe.
+class ShadowGround {
+ public:
+  ShadowGround(std::shared_ptr<const dem::Terrain> near, double body_radius_m,
+               const std::shared_ptr<const dem::Terrain>& around = nullptr);
+  // Of an extent with all of the terrain around it. Errors: as of ground_of().
+  static Result<ShadowGround> read(const TerrainSite& site, const dem::Extent& extent);
+
+  // A picture of the extent under suns whose azimuths count from the map's north. Under one: shadow, and
+  // transparent where the ground is lit; under several: in which share of them it is. Transparent where the
+  // terrain has no height. The ground is lit where the sun stands over the level and over the ground's
+  // horizon.
+  dem::RgbaImage draw(const dem::Extent& extent, const std::vector<sky::Bearing>& suns) const;
+
+ private:
+  std::shared_ptr<const dem::Terrain> near_;
+  dem::HorizonSweep sweep_;
+  std::optional<dem::HorizonSweep> around_;
+};
 
 }  // namespace slipway::api

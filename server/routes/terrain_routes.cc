@@ -34,12 +34,12 @@ namespace {
 constexpr std::size_t kPictureBytes = 32'000'000;  // of pictures that are kept in memory
 constexpr std::string_view kPng = ".png";
 
-constexpr std::size_t kHorizons = 4;  // of extents that are kept: some 10 MB each
+constexpr std::size_t kGrounds = 4;  // of extents that are kept: some 10 MB each
 
 using Site = std::shared_ptr<const api::TerrainSite>;
 
-struct KeptHorizon {
-  std::shared_ptr<const dem::Horizon> horizon;
+struct KeptGround {
+  api::ShadowGround ground;
   static std::size_t size() { return 1; }
 };
 
@@ -199,13 +199,13 @@ class TerrainRoutes {
     if (!known) return problem_response(known.error(), &request);
     const std::string where = fmt::format("{}/{}", known->hash, fmt::join(bounds, ","));
     const auto draw = [&]() -> Result<std::string> {
-      const auto kept = horizons_.get(where, [&]() -> Result<KeptHorizon> {
-        auto horizon = api::horizon_of(**site, extent);
-        if (!horizon) return fail(horizon.error());
-        return KeptHorizon{*std::move(horizon)};
+      const auto kept = grounds_.get(where, [&]() -> Result<KeptGround> {
+        auto ground = api::ShadowGround::read(**site, extent);
+        if (!ground) return fail(ground.error());
+        return KeptGround{*std::move(ground)};
       });
       if (!kept) return fail(kept.error());
-      return dem::encode_png(api::draw_sunlight(*(*kept)->horizon, extent, suns));
+      return dem::encode_png((*kept)->ground.draw(extent, suns));
     };
     return png(request, drawn_.get(where + "/" + query.text("sun"), draw), known->hash);
   }
@@ -277,7 +277,7 @@ class TerrainRoutes {
 
   const api::Service& service_;
   DrawnCache<std::string> drawn_{kPictureBytes};
-  DrawnCache<KeptHorizon> horizons_{kHorizons};
+  DrawnCache<KeptGround> grounds_{kGrounds};
   std::mutex mutex_;
   std::map<std::string, Known> known_;
 };

@@ -20,7 +20,7 @@ constexpr double kHeight_m = 10.0, kFrom_m = 60.0, kTo_m = 64.0;
 
 // Flat ground with a wall from south to north, which ends half way; one cell has no data. Mirrored: the wall
 // stands as far from the other side.
-dem::Horizon wall(bool mirrored) {
+ShadowGround wall(bool mirrored) {
   const dem::GridGeometry grid{
       .rows = kSide, .columns = kSide, .west_m = 0.0, .north_m = kSide, .cell_x_m = 1.0, .cell_y_m = 1.0};
   std::vector<float> heights;
@@ -31,7 +31,7 @@ dem::Horizon wall(bool mirrored) {
       heights.push_back(x >= kFrom_m && x < kTo_m && row < kSide / 2 ? static_cast<float>(kHeight_m) : 0.0F);
       valid.push_back(row == 100 && x == 20 ? 0 : 1);
     }
-  return dem::Horizon(std::make_shared<const dem::Terrain>(grid, std::move(heights), std::move(valid)),
+  return ShadowGround(std::make_shared<const dem::Terrain>(grid, std::move(heights), std::move(valid)),
                       std::numeric_limits<double>::infinity());
 }
 
@@ -48,7 +48,7 @@ double shadow_m(const dem::RgbaImage& image, int row) {
 
 TEST(Sunlight, AWallCastsAShadowAsLongAsItsHeightOverTheTangentOfTheSun) {
   for (const double elevation_deg : {15.0, 30.0, 45.0}) {
-    const dem::RgbaImage image = draw_sunlight(wall(false), kAll, {sun(270.0, elevation_deg)});
+    const dem::RgbaImage image = wall(false).draw(kAll, {sun(270.0, elevation_deg)});
     ASSERT_EQ(image.columns, 256);
     const double expected = kHeight_m / std::tan(rad_from_deg(elevation_deg));
     // Of the wall's own slope, which lies between two cells, up to a metre is dark too.
@@ -60,8 +60,8 @@ TEST(Sunlight, AWallCastsAShadowAsLongAsItsHeightOverTheTangentOfTheSun) {
 }
 
 TEST(Sunlight, AMirroredMapHasMirroredShadows) {
-  const dem::RgbaImage one = draw_sunlight(wall(false), kAll, {sun(250.0, 12.0)}),
-                       other = draw_sunlight(wall(true), kAll, {sun(110.0, 12.0)});
+  const dem::RgbaImage one = wall(false).draw(kAll, {sun(250.0, 12.0)}),
+                       other = wall(true).draw(kAll, {sun(110.0, 12.0)});
   int differ = 0, dark = 0;
   for (int row = 0; row < one.rows; ++row)
     for (int column = 0; column < one.columns; ++column) {
@@ -74,33 +74,32 @@ TEST(Sunlight, AMirroredMapHasMirroredShadows) {
 
 TEST(Sunlight, GroundOutsideThePictureCastsShadowsIntoIt) {
   const dem::Extent beside{66.0, 80.0, 76.0, 90.0};
-  const dem::RgbaImage image = draw_sunlight(wall(false), beside, {sun(270.0, 30.0)});
+  const dem::RgbaImage image = wall(false).draw(beside, {sun(270.0, 30.0)});
   EXPECT_EQ(image.at(image.rows / 2, image.columns / 2), kShadow);
 }
 
 TEST(Sunlight, ANightIsDarkAndWhereThereIsNoGroundNothingIsDrawn) {
   for (const double elevation_deg : {0.0, -40.0}) {
-    const dem::RgbaImage image = draw_sunlight(wall(false), kAll, {sun(90.0, elevation_deg)});
+    const dem::RgbaImage image = wall(false).draw(kAll, {sun(90.0, elevation_deg)});
     EXPECT_EQ(image.at(10, 10), kShadow);
     EXPECT_EQ(image.at(200, 2 * 20), dem::kTransparent) << "a cell without data";
   }
   const dem::Extent away{1000.0, 1000.0, 1010.0, 1010.0};
-  EXPECT_EQ(draw_sunlight(wall(false), away, {sun(90.0, 30.0)}).at(0, 0), dem::kTransparent);
+  EXPECT_EQ(wall(false).draw(away, {sun(90.0, 30.0)}).at(0, 0), dem::kTransparent);
 }
 
 TEST(Sunlight, TheShareOfTheSunsHasItsClass) {
   // Five suns from the west, of which only those above 45 deg reach a place 10 m behind the wall.
   const std::vector<sky::Bearing> suns{sun(270.0, 20.0), sun(270.0, 30.0), sun(270.0, 40.0), sun(270.0, 60.0),
                                        sun(270.0, 70.0)};
-  const dem::RgbaImage image = draw_sunlight(wall(false), kAll, suns);
+  const dem::RgbaImage image = wall(false).draw(kAll, suns);
   const auto at = [&](double x_m, double y_m) {
     return image.at(static_cast<int>((kSide - y_m) / kSide * image.rows),
                     static_cast<int>(x_m / kSide * image.columns));
   };
   EXPECT_EQ(at(74.0, 100.0), kSunlitClasses[1].colour) << "two suns of five";
   EXPECT_EQ(at(30.0, 100.0), kSunlitClasses[4].colour) << "all of them";
-  EXPECT_EQ(draw_sunlight(wall(false), kAll, {sun(0.0, -1.0), sun(0.0, -2.0)}).at(0, 0),
-            kSunlitClasses[0].colour);
+  EXPECT_EQ(wall(false).draw(kAll, {sun(0.0, -1.0), sun(0.0, -2.0)}).at(0, 0), kSunlitClasses[0].colour);
 }
 
 std::shared_ptr<const TerrainSite> shipped(const std::string& name) {

@@ -220,10 +220,10 @@ TEST_F(TerrainRoutes, AShadowIsAPictureOfTheBoundsUnderTheSunsAndEveryFaultIsNam
   const auto picture = get("/v1/terrains/yard/shadow.png", {{"bounds", bounds}, {"sun", "270,5"}});
   ASSERT_EQ(picture.status, 200) << picture.body;
   EXPECT_EQ(picture.content_type, "image/png");
-  const auto extent = horizon_of(yard(), map);
-  ASSERT_TRUE(extent);
+  const auto ground = ShadowGround::read(yard(), map);
+  ASSERT_TRUE(ground);
   const auto drawn = [&](const std::vector<sky::Bearing>& suns) {
-    return dem::encode_png(draw_sunlight(**extent, map, suns)).value();
+    return dem::encode_png(ground->draw(map, suns)).value();
   };
   EXPECT_EQ(picture.body, drawn({{1.5 * std::numbers::pi, rad_from_deg(5.0)}}));
   const auto share = get("/v1/terrains/yard/shadow.png", {{"bounds", bounds}, {"sun", "270,5;90,5"}});

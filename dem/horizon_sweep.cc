@@ -1,0 +1,262 @@
+#include "dem/horizon_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "core/parallel_for.h"
+
+namespace slipway::dem {
+namespace {
+
+constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
+constexpr int kNearby = 48;  // steps that a place looks along its own ray
+constexpr int kClose = 16;   // of them those between which it looks, too
+constexpr int kLinesOfBlock = 64;
+
+struct Corner {
+  double s_m, w_m;  // along the line, and the height less what the ground falls away from the line's begin
+};
+
+double slope(const Corner& from, const Corner& to) {
+  return (to.w_m - from.w_m) / (to.s_m - from.s_m);
+}
+
+// The upper convex hull of a line's ground; the nearest corner last.
+class Hull {
+ public:
+  void add(const Corner& nearer) {
+    while (corners_.size() > 1 &&
+           slope(nearer, corners_[corners_.size() - 2]) >= slope(nearer, corners_.back()))
+      corners_.pop_back();
+    corners_.push_back(nearer);
+  }
+  // The steepest slope to a corner; -infinity without any. It rises up to one corner and falls behind it, and
+  // where the last place saw its horizon the next one mostly does, too.
+  double steepest(const Corner& eye) {
+    if (corners_.empty()) return -std::numeric_limits<double>::infinity();
+    seen_ = std::min(seen_, corners_.size() - 1);
+    double best = slope(eye, corners_[seen_]);
+    const auto climb = [&](std::size_t to) {
+      const double there = slope(eye, corners_[to]);
+      if (there < best) return false;
+      best = there;
+      seen_ = to;
+      return true;
+    };
+    bool moved = false;
+    while (seen_ + 1 < corners_.size() && climb(seen_ + 1)) moved = true;
+    while (!moved && seen_ > 0 && climb(seen_ - 1)) continue;
+    return best;
+  }
+
+ private:
+  std::vector<Corner> corners_;
+  std::size_t seen_ = 0;
+};
+
+// The grid as the direction sees it: p counts the rows or columns that each ray crosses, growing the way that
+// it looks; q counts the others.
+struct Course {
+  int p_count, q_count;
+  bool along_columns, turned;  // p is the column; p counts from the last
+  double q_per_p, metres_per_p;
+  double closest_m;  // nearer there is but the slope that the rover itself stands on
+  std::ptrdiff_t p_stride, q_stride;
+  const float* first;
+
+  Course(const GridGeometry& grid, const std::vector<float>& heights, double azimuth_rad) {
+    const double rows_m = -std::cos(azimuth_rad) / grid.cell_y_m,
+                 columns_m = std::sin(azimuth_rad) / grid.cell_x_m;
+    along_columns = std::abs(columns_m) >= std::abs(rows_m);
+    const double p_m = along_columns ? columns_m : rows_m, q_m = along_columns ? rows_m : columns_m;
+    turned = p_m < 0.0;
+    q_per_p = q_m / std::abs(p_m);
+    if (std::abs(q_per_p) < 1e-10) q_per_p = 0.0;  // a trace that rounding has left
+    metres_per_p = 1.0 / std::abs(p_m);
+    closest_m = 0.5 * std::min(grid.cell_x_m, grid.cell_y_m);
+    p_count = along_columns ? grid.columns : grid.rows;
+    q_count = along_columns ? grid.rows : grid.columns;
+    p_stride = along_columns ? 1 : grid.columns;
+    q_stride = along_columns ? grid.columns : 1;
+    first = heights.data();
+    if (turned) {
+      first += (p_count - 1) * p_stride;
+      p_stride = -p_stride;
+    }
+  }
+
+  double p_of(const Eigen::Vector2d& row_and_column) const {
+    const double p = along_columns ? row_and_column.y() : row_and_column.x();
+    return turned ? p_count - 1 - p : p;
+  }
+  double q_of(const Eigen::Vector2d& row_and_column) const {
+    return along_columns ? row_and_column.x() : row_and_column.y();
+  }
+  const float* at(int p, int q) const { return first + p * p_stride + q * q_stride; }
+  // On a whole p, between two whole q.
+  double height_m(int p, double q) const {
+    if (!(q >= 0.0 && q <= q_count - 1)) return kNoHeight;
+    const int below = std::min(static_cast<int>(q), q_count - 2);
+    const float* const here = at(p, below);
+    return here[0] + (q - below) * (here[q_stride] - here[0]);
+  }
+  // Anywhere.
+  double height_m(double p, double q) const {
+    if (!(p >= 0.0 && p <= p_count - 1)) return kNoHeight;
+    const int before = std::min(static_cast<int>(p), p_count - 2);
+    const double here = height_m(before, q);
+    return here + (p - before) * (height_m(before + 1, q) - here);
+  }
+  // On a whole q, between two whole p.
+  double height_across_m(double p, int q) const {
+    if (q < 0 || q >= q_count || !(p >= 0.0 && p <= p_count - 1)) return kNoHeight;
+    const int before = std::min(static_cast<int>(p), p_count - 2);
+    const float* const here = at(before, q);
+    return here[0] + (p - before) * (here[p_stride] - here[0]);
+  }
+};
+
+// Some lines side by side, q = j + q_per_p p for whole j, and the eyes between them.
+class Lines {
+ public:
+  Lines(const Course& course, double body_radius_m, int first_j, int count)
+      : course_(course),
+        per_diameter_(0.5 / body_radius_m),
+        first_j_(first_j),
+        count_(count),
+        hulls_(static_cast<std::size_t>(count) + 1) {}
+
+  // The ground on a whole p.
+  void add(int p) {
+    if (p < 0 || p >= course_.p_count) return;
+    const double s = p * course_.metres_per_p, fallen = s * s * per_diameter_;
+    for (int k = 0; k <= count_; ++k) {
+      const double height = course_.height_m(p, first_j_ + k + course_.q_per_p * p);
+      if (!std::isnan(height)) hulls_[static_cast<std::size_t>(k)].add({s, height - fallen});
+    }
+  }
+
+  // What an eye at (p, q) sees: nearby along its own ray, beyond along the lines beside it.
+  double tangent(double p, double q, double height_m) {
+    const int here = static_cast<int>(std::floor(p));
+    double best = -std::numeric_limits<double>::infinity();
+    const auto look = [&](double height, double steps) {
+      const double d = steps * course_.metres_per_p;
+      const double over = height - height_m - d * d * per_diameter_;
+      if (over > best * d) best = over / d;  // not where there is no height
+    };
+    const int end = std::min(here + kNearby, course_.p_count) - 1;
+    double last_p = p + course_.closest_m / course_.metres_per_p;
+    look(course_.height_m(last_p, q + course_.q_per_p * (last_p - p)), last_p - p);
+    for (int k = std::max(static_cast<int>(std::floor(last_p)) + 1, 0); k <= end; ++k) {
+      const double last_q = q + course_.q_per_p * (last_p - p), at_q = q + course_.q_per_p * (k - p);
+      const int crossed = static_cast<int>(std::max(last_q, at_q));
+      if (crossed > std::min(last_q, at_q)) {
+        const double to_crossing = (crossed - q) / course_.q_per_p;
+        look(course_.height_across_m(p + to_crossing, crossed), to_crossing);
+      }
+      // Between two crossings the ground is a parabola.
+      const double middle = 0.5 * (last_p + k);
+      if (k - here < kClose) look(course_.height_m(middle, q + course_.q_per_p * (middle - p)), middle - p);
+      look(course_.height_m(k, at_q), k - p);
+      last_p = k;
+    }
+    const double s = p * course_.metres_per_p;
+    const Corner eye{s, height_m - s * s * per_diameter_};
+    const double line = q - course_.q_per_p * p - first_j_, share = line - std::floor(line);
+    const auto k = static_cast<std::size_t>(std::floor(line));
+    const double one = hulls_[k].steepest(eye), other = hulls_[k + 1].steepest(eye);
+    const double far = std::isinf(one) || std::isinf(other) ? std::max(one, other)
+                                                            : (1.0 - share) * one + share * other;
+    return std::max(best, far + 2.0 * s * per_diameter_);
+  }
+
+ private:
+  const Course& course_;
+  double per_diameter_;
+  int first_j_, count_;
+  std::vector<Hull> hulls_;
+};
+
+}  // namespace
+
+Eyes eyes_over(const Terrain& terrain, const GridGeometry& cells, double eye_m) {
+  Eyes eyes{cells, {}};
+  eyes.heights_m.reserve(static_cast<std::size_t>(cells.rows) * static_cast<std::size_t>(cells.columns));
+  for (int row = 0; row < cells.rows; ++row)
+    for (int column = 0; column < cells.columns; ++column) {
+      const Eigen::Vector2d centre = cells.centre_m({row, column});
+      const auto height = terrain.height_m(centre.x(), centre.y());
+      eyes.heights_m.push_back(height ? static_cast<float>(*height + eye_m) : kNoHeight);
+    }
+  return eyes;
+}
+
+HorizonSweep::HorizonSweep(const Terrain& terrain, double body_radius_m, std::optional<Extent> without)
+    : geometry_(terrain.geometry()), body_radius_m_(body_radius_m) {
+  heights_m_.reserve(static_cast<std::size_t>(geometry_.rows) * static_cast<std::size_t>(geometry_.columns));
+  for (int row = 0; row < geometry_.rows; ++row)
+    for (int column = 0; column < geometry_.columns; ++column) {
+      const auto height = terrain.height_m({row, column});
+      const Eigen::Vector2d centre = geometry_.centre_m({row, column});
+      const bool left_out = without && centre.x() > without->west_m && centre.x() < without->east_m &&
+                            centre.y() > without->south_m && centre.y() < without->north_m;
+      heights_m_.push_back(height && !left_out ? static_cast<float>(*height) : kNoHeight);
+    }
+}
+
+void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threads,
+                         std::vector<float>& tangents) const {
+  if (geometry_.rows < 2 || geometry_.columns < 2) return;
+  const Course course(geometry_, heights_m_, azimuth_rad);
+  const GridGeometry& cells = eyes.cells;
+  // The eyes' cells along p and along q, and where they lie.
+  const int along_p = course.along_columns ? cells.columns : cells.rows,
+            along_q = course.along_columns ? cells.rows : cells.columns;
+  const auto index = [&](int p, int q) { return course.along_columns ? Cell{q, p} : Cell{p, q}; };
+  const auto place = [&](int p, int q) {
+    const Eigen::Vector2d centre = cells.centre_m(index(p, q));
+    return geometry_.fractional_index(centre.x(), centre.y());
+  };
+  std::vector<std::pair<double, int>> p_of;
+  for (int k = 0; k < along_p; ++k) p_of.emplace_back(course.p_of(place(k, 0)), k);
+  std::sort(p_of.begin(), p_of.end(), std::greater<>());
+  const double first_q = course.q_of(place(0, 0)),
+               q_step = along_q > 1 ? course.q_of(place(0, 1)) - first_q : 1.0;
+  const double last_q = first_q + q_step * (along_q - 1);
+  const double low_p = p_of.back().first, high_p = p_of.front().first;
+  const std::pair<double, double> lean = std::minmax({course.q_per_p * low_p, course.q_per_p * high_p});
+  const int first_j = static_cast<int>(std::floor(std::min(first_q, last_q) - lean.second)),
+            last_j = static_cast<int>(std::floor(std::max(first_q, last_q) - lean.first));
+  const auto blocks = static_cast<std::size_t>((last_j - first_j) / kLinesOfBlock + 1);
+  parallel_for(blocks, threads, [&](std::size_t block) {
+    const int j = first_j + static_cast<int>(block) * kLinesOfBlock;
+    Lines lines(course, body_radius_m_, j, kLinesOfBlock);
+    auto next = p_of.begin();
+    for (int p = course.p_count - 1 + kNearby; next != p_of.end(); --p) {
+      lines.add(p);
+      for (; next != p_of.end() && std::floor(next->first) + kNearby >= p; ++next) {
+        // Eyes with j <= q - q_per_p p < j + the lines of a block.
+        const double from = j + course.q_per_p * next->first, to = from + kLinesOfBlock;
+        double low = (from - first_q) / q_step, high = (to - first_q) / q_step;
+        if (q_step < 0.0) std::swap(low, high);
+        for (int k = std::max(0, static_cast<int>(std::floor(low))); k < along_q && k <= high + 1.0; ++k) {
+          const double q = first_q + q_step * k;
+          const double line = q - course.q_per_p * next->first - j;
+          if (line < 0.0 || line >= kLinesOfBlock) continue;
+          const Cell cell = index(next->second, k);
+          const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(cells.columns) +
+                          static_cast<std::size_t>(cell.column);
+          if (std::isnan(eyes.heights_m[at])) continue;
+          tangents[at] = std::max(
+              tangents[at], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[at])));
+        }
+      }
+    }
+  });
+}
+
+}  // namespace slipway::dem
