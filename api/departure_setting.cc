@@ -56,18 +56,33 @@ std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
   const dem::MapPlace middle{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
   if (site.info().body == "Mars" && degrees_of(site).to_degrees(middle)) return std::nullopt;
-  return fmt::format(
-      "the terrain lies {}, where the sun's direction is not computed: give it as a table of moments, each "
-      "with at, sun_azimuth_deg and sun_elevation_deg",
-      site.info().body == "Mars" || site.info().body == "other" ? std::string("in a local frame")
-                                                                : "on the " + site.info().body);
+  return fmt::format("the terrain lies {}, where the sun's direction is not computed",
+                     site.info().body == "Mars" || site.info().body == "other"
+                         ? std::string("in a local frame")
+                         : "on the " + site.info().body);
+}
+
+Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near) {
+  constexpr int kMostCells = 1024;  // along a side
+  const dem::GridGeometry& whole = site.info().geometry;
+  // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
+  if (near.geometry() == whole && !near.is_read_by_tiles()) return std::shared_ptr<const dem::Terrain>();
+  const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
+  return site.read_samples(whole.extent(), step);
+}
+
+Result<std::shared_ptr<const dem::Horizon>> horizon_over(const TerrainSite& site,
+                                                         std::shared_ptr<const dem::Terrain> near) {
+  auto around = ground_around(site, *near);
+  if (!around) return fail(around.error());
+  return std::make_shared<const dem::Horizon>(std::move(near), body_radius_m(site.info().body),
+                                              std::move(*around));
 }
 
 Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite& site,
                                                                std::shared_ptr<const dem::Terrain> near,
                                                                const planner::Waypoint& start,
                                                                const DepartureRequest& request) {
-  constexpr int kMostCells = 1024;  // along a side of the ground around
   auto departure = std::make_shared<planner::Departure>(request);
   if (const Body* const body = body_of(site.info().body)) departure->day_s = body->day_s;
   if (site.info().body == "Moon" && request.optical_depth > 0.0)
@@ -91,17 +106,9 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
   }
   departure->sky =
       std::make_shared<sky::SkyOverMap>(std::move(sky), map_north_rad(site, start.x_m, start.y_m));
-  const dem::GridGeometry& whole = site.info().geometry;
-  std::shared_ptr<const dem::Terrain> around;
-  // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
-  if (!(near->geometry() == whole) || near->is_read_by_tiles()) {
-    const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
-    auto read = site.read_samples(whole.extent(), step);
-    if (!read) return fail(read.error());
-    around = std::move(*read);
-  }
-  departure->horizon =
-      std::make_shared<dem::Horizon>(std::move(near), body_radius_m(site.info().body), std::move(around));
+  auto horizon = horizon_over(site, std::move(near));
+  if (!horizon) return fail(horizon.error());
+  departure->horizon = std::move(*horizon);
   return std::shared_ptr<const planner::Departure>(std::move(departure));
 }
 

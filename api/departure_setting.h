@@ -20,8 +20,15 @@ double map_north_rad(const TerrainSite& site, double x_m, double y_m);
 // Why the directions of sun and Earth over a terrain can't be computed; nothing on Mars.
 std::optional<std::string> why_no_sky(const TerrainSite& site);
 
-// A request's departure with the sky and the horizon of the terrain: of `near` and, beyond it, of the whole
-// terrain in coarser cells. `start` is where the sky is taken. Errors: as of TerrainSite::read_samples.
+// What lies beyond `near`: the whole terrain in coarser cells; null where `near` is all of it. Errors: as of
+// TerrainSite::read_samples.
+Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near);
+// The horizon of both. Errors: the same.
+Result<std::shared_ptr<const dem::Horizon>> horizon_over(const TerrainSite& site,
+                                                         std::shared_ptr<const dem::Terrain> near);
+
+// A request's departure with the sky and the horizon of the terrain, see horizon_over(). `start` is where the
+// sky is taken. Errors: as of TerrainSite::read_samples.
 Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite& site,
                                                                std::shared_ptr<const dem::Terrain> near,
                                                                const planner::Waypoint& start,

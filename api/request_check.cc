@@ -172,7 +172,9 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
 void RequestCheck::departure(const DriveAssumptions& drive) {
   if (!drive.departure || already_faulty("/departure")) return;
   if (site_ != nullptr && drive.departure->table.empty())
-    if (auto why = why_no_sky(*site_)) add(ErrorCode::kInvalidRequest, "/departure/sky", std::move(*why));
+    if (const auto why = why_no_sky(*site_))
+      add(ErrorCode::kInvalidRequest, "/departure/sky",
+          *why + ": give it as a table of moments, each with at, sun_azimuth_deg and sun_elevation_deg");
   if (rover_ == nullptr || rover_->power) return;
   const DepartureRequest& of = *drive.departure;
   for (const auto& [given, key] : {std::pair{of.rules.min_charge.has_value(), "min_charge_percent"},

@@ -5,6 +5,7 @@ import { button, fill, h, select } from "./dom";
 import { keyboard } from "./keyboard";
 import { TerrainMap } from "./map/terrain_map";
 import { checkPanel } from "./panels/check";
+import { daySign } from "./panels/day";
 import { drivesPanel } from "./panels/drives";
 import { jobView } from "./panels/job_view";
 import { jobsPanel } from "./panels/jobs";
@@ -39,8 +40,9 @@ const aim = h("div", { class: "map-aim", role: "status" });
 const layerBox = h("div", { class: "layers" });
 const profile = h("div", { class: "profile" });
 const onMap = h("div", { class: "map-verdict", role: "status", "aria-live": "polite" });
+const ofDay = h("div", { class: "map-sun", "data-sun-sign": true });
 const lean = h("div", { class: "map-lean off" });
-const frame = h("div", { class: "map-frame" }, mapElement, h("div", { class: "map-top" }, aim, onMap), lean, readoutLine);
+const frame = h("div", { class: "map-frame" }, mapElement, h("div", { class: "map-top" }, aim, onMap, ofDay), lean, readoutLine);
 const stage = h("div", { class: "stage bare" }, h("div", { class: "map-box" }, frame, layerBox), profile);
 let wasEmpty = true;
 const panels = Object.fromEntries(tabs.map(([tab]) => [tab, h("div", { class: "panel", id: `panel-${tab}`, role: "tabpanel", "aria-labelledby": `tab-${tab}` })])) as unknown as Record<Tab, HTMLElement>;
@@ -73,6 +75,7 @@ const print = reportPage(map, redraw);
 verdictPanel(verdict, map, () => void print());
 layersPanel(layerBox, map);
 mapVerdict(onMap);
+daySign(ofDay);
 leanView(lean);
 keyboard(map, mapElement, charts, keyHelp.open);
 
@@ -157,7 +160,7 @@ function keepLink(): void {
     if (store.state.terrain) history.replaceState(null, "", `#${writeLink(store.state, map.view)}`);
   }, 200);
 }
-store.on(["tab", "terrain", "drawn", "options", "layers", "routeColour", "result", "job", "route", "risk", "followed"], keepLink);
+store.on(["tab", "terrain", "drawn", "options", "layers", "routeColour", "result", "job", "route", "risk", "followed", "day"], keepLink);
 map.map.on("moveend", keepLink);
 window.addEventListener("hashchange", () => {
   if (location.hash.slice(1) !== writeLink(store.state, map.view)) location.reload();

@@ -2,7 +2,7 @@
 import { riskTitles } from "./map/risk_map";
 import type { RiskKind } from "./map/risk_types";
 import { limits } from "./limits";
-import { nothingDrawn, routeColours, store, type Drawn, type Model, type Options, type Place, type Ring, type State, type Tab } from "./state";
+import { nothingDrawn, routeColours, store, type Day, type Drawn, type Model, type Options, type Place, type Ring, type State, type Tab } from "./state";
 
 export interface Link {
   terrain: string;
@@ -55,6 +55,9 @@ export function writeLink(state: State, view: Link["view"]): string {
   put("confidence", options.confidence);
   put("unknown", options.unknownSoil);
   put("draws", options.draws);
+  put("when", Object.entries(options.departure).map(([k, v]) => `${k}=${v}`).join(","));
+  put("at", state.day.shows && new Date(state.day.at_ms).toISOString());
+  put("sun", state.day.shows);
   put("risk", state.risk.filter((m) => m.document).map((m) => [m.kind, m.opacity, m.job].join(":")).join(","));
   put("layers", Object.entries(state.layers).map(([k, v]) => `${k}:${v}`).join(","));
   put("colour", state.routeColour === "risk" ? "" : state.routeColour);
@@ -118,11 +121,14 @@ export function readLink(hash: string): Link {
     confidence: Number(q.get("confidence")) || null,
     unknownSoil: q.get("unknown") ?? "",
     draws: Number(q.get("draws")) || null,
+    departure: Object.fromEntries((q.get("when") ?? "").split(",").map((pair) => pair.split("=")).filter((pair) => pair.length === 2)),
   };
   const tab = (["plan", "check", "jobs", "drives"] as Tab[]).find((t) => t === q.get("tab")) ?? "plan";
   const colour = routeColours.find((c) => c === q.get("colour")) ?? "risk";
   const layers = { ...store.state.layers, ...Object.fromEntries(pairs(q.get("layers")).filter(([k]) => k in store.state.layers)) };
-  store.set({ drawn, options, tab, layers, routeColour: colour, route: Number(q.get("route")) || 0 });
+  const at_ms = Date.parse(q.get("at") ?? "");
+  const day: Day = { at_ms: Number.isFinite(at_ms) ? at_ms : store.state.day.at_ms, shows: (["shadow", "share"] as const).find((s) => s === q.get("sun")) ?? "" };
+  store.set({ drawn, options, day, tab, layers, routeColour: colour, route: Number(q.get("route")) || 0 });
   const view = (q.get("view") ?? "").split(",").map(Number);
   return {
     terrain: q.get("terrain") ?? "",

@@ -39,6 +39,13 @@ export interface Stations {
   soil: (string | null)[];
   on_unknown_ground: boolean[];
   wheels: Record<string, Record<string, Column>>;
+  // Of the best departure, or of the nearest where none keeps the rules; absent where none was asked for.
+  at_ms?: number[];
+  charge_percent?: Column;
+  charge_low_percent?: Column;
+  in_w?: Column;
+  out_w?: Column;
+  sun_over_horizon_deg?: Column;
 }
 
 export type Rule = Schemas["RuleRisk"];
@@ -81,6 +88,35 @@ export interface Result {
   routes: Route[];
 }
 
+/** Values of another route at the distances of the first, so that both are on one axis. */
+export function resampled(values: Column, from: number[], at: number[]): Column {
+  let k = 0;
+  return at.map((d) => {
+    if (from.length === 0 || d > from.at(-1)! || d < from[0]!) return null;
+    while (k + 2 < from.length && from[k + 1]! < d) ++k;
+    const [a, b] = [values[k] ?? null, values[k + 1] ?? null];
+    if (a === null || b === null) return null;
+    const span = from[k + 1]! - from[k]!;
+    return span > 0 ? a + ((b - a) * Math.max(0, d - from[k]!)) / span : b;
+  });
+}
+
+/** The day along the drive, at the stations of the route. */
+function dayColumns({ departures }: Schemas["Decision"], at_m: number[]): Partial<Stations> {
+  const along = (departures?.best ?? departures?.nearest)?.stations ?? [];
+  if (along.length < 2) return {};
+  const from = along.map((s) => s.distance_m);
+  const column = (value: (s: (typeof along)[number]) => number) => resampled(along.map(value), from, at_m);
+  return {
+    at_ms: column((s) => Date.parse(s.at)).map((at) => at ?? NaN),
+    charge_percent: column((s) => s.charge_percent),
+    charge_low_percent: column((s) => s.charge_low_percent),
+    in_w: column((s) => s.in_w),
+    out_w: column((s) => s.out_w),
+    sun_over_horizon_deg: column((s) => s.sun_over_horizon_deg),
+  };
+}
+
 /* eslint-disable @typescript-eslint/no-explicit-any -- the documents' parts have no schemas of their own */
 function routeOf(properties: any, document: any, title: string): Route {
   const decision: Schemas["Decision"] = properties.decision ?? document.decision;
@@ -89,7 +125,7 @@ function routeOf(properties: any, document: any, title: string): Route {
     verdict: decision.verdict,
     decision,
     figures: properties.rank !== undefined ? properties : document.summary,
-    stations: properties.stations,
+    stations: { ...properties.stations, ...dayColumns(decision, properties.stations.distance_m) },
     outcomes: properties.outcomes ?? document.outcomes,
     notes: properties.rank !== undefined ? properties.reasons : [],
   };
@@ -108,7 +144,7 @@ export async function readResult(job: Job, asked: Question, quiet: boolean): Pro
     request: document.request ?? {},
     asked,
     quiet,
-    limits: { ...document.request?.limits, ...document.request?.bars, ...document.request?.checks },
+    limits: { ...document.request?.limits, ...document.request?.bars, ...document.request?.checks, ...document.request?.departure },
     provenance: document.provenance ?? {},
     fewer: document.fewer_because ?? [],
     driven: document.drive_so_far?.stretches ?? [],

@@ -2,6 +2,7 @@
 import type { CostTerm, Campaign, Diagnosis, Effect, Job, Limits, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
 import type { RiskMap } from "./map/risk_types";
 import type { Result } from "./result";
+import type { Sol } from "./sky";
 
 export interface Place {
   x_m: number;
@@ -39,6 +40,16 @@ export interface Options {
   confidence: number | null; // that a mapped class is the soil that the legend gives; null: the terrain's own
   unknownSoil: string; // "": the belief about unknown ground
   draws: number | null; // of the ground; null: as many as the verdict needs
+  departure: Departure; // what is asked of the day
+}
+
+/** Texts of the form, by the request's keys; times in UTC. Without "from" nothing is asked. */
+export type Departure = Record<string, string>;
+
+/** The time of day that the map shows. */
+export interface Day {
+  at_ms: number;
+  shows: "" | "shadow" | "share";
 }
 
 export interface Model {
@@ -93,6 +104,8 @@ export interface State {
   route: number; // index of the chosen route of the result
   compared: number | null; // index of a second route of it
   hover_m: number | null; // place along the chosen route
+  day: Day;
+  sol: Sol | null; // the sky of the sol that it lies in
   error: unknown;
 }
 
@@ -126,7 +139,7 @@ class Store {
     followed: nothingFollowed,
     terrain: null,
     drawn: nothingDrawn,
-    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null },
+    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null, departure: {} },
     tool: "look",
     layers: { slope: 0, soil: 0, unknown: 0.6 },
     swipe: null,
@@ -143,6 +156,8 @@ class Store {
     route: 0,
     compared: null,
     hover_m: null,
+    day: { at_ms: Date.now(), shows: "" },
+    sol: null,
     error: null,
   };
 

@@ -208,6 +208,96 @@ test("1920, keyboard: places, cursor, why, limits; G stays G", async () => {
   await p.done();
 });
 
+test("1280, mouse: the time of day is dragged and the shadows move; a drive is planned for the sol on the map", async () => {
+  const at = "2016-03-22T07:00:00.000Z";
+  const p = await page("laptop", `${ground}&${placed}&at=${at}&sun=shadow&layers=slope:0,soil:0,unknown:0`, { expected: /readback/ });
+  const shadow = () => p.evaluate(() => document.querySelector(".map").dataset.shadow ?? "");
+  await p.waitForSelector(".map[data-shadow]");
+  const sky = async (place, time) => (await (await p.request.get(`${service.url}/v1/terrains/gale/sky?place=${place}&from=${time}&to=${time}`)).json()).moments[0];
+  const now = await sky(`${start.x_m},${start.y_m}`, at);
+  const [azimuth, elevation] = (await shadow()).split(",").map(Number);
+  assert.ok(Math.abs(azimuth - now.sun.azimuth_deg) < 0.1 && Math.abs(elevation - now.sun.elevation_deg) < 0.1, `${azimuth}, ${elevation}`);
+  const clock = async () => (([hours, minutes]) => 60 * hours + minutes)((await p.textContent("[data-clock]")).split(":").map(Number));
+  assert.ok(Math.abs((await clock()) - 60 * now.true_solar_h) <= 1, "local true solar time");
+
+  // Ground behind a rise is dark, and the start is not: as the service has it, and with the picture off both are as they were.
+  const dark = [8142546, -276483];
+  assert.equal((await sky(dark, at)).lit, false);
+  assert.equal(now.lit, true);
+  const colours = async () => Promise.all([dark, [start.x_m + 6, start.y_m + 6]].map(async (place) => (await mapColours(p, await p.pixel(...place))).join()));
+  await pause(200);
+  const shaded = await colours();
+  await p.look("42_shadow");
+  await p.click('[data-shows=""]');
+  await pause(200);
+  const plain = await colours();
+  assert.notEqual(plain[0], shaded[0]);
+  assert.equal(plain[1], shaded[1]);
+  await p.click('[data-shows="shadow"]');
+
+  // The knob is dragged to the afternoon, then moved by a key.
+  const asked = [];
+  p.on("request", (r) => r.url().includes("shadow.png") && asked.push(performance.now()));
+  const morning = await clock();
+  const slider = await p.locator("[data-day]").boundingBox();
+  const knob = slider.x + 8 + ((slider.width - 16) * morning) / 1440;
+  await p.mouse.move(knob, slider.y + slider.height / 2);
+  await p.mouse.down();
+  for (let k = 1; k <= 20; ++k) await p.mouse.move(knob + (k * slider.width) / 50, slider.y + slider.height / 2).then(() => pause(20));
+  await p.mouse.up();
+  const dragged = await clock();
+  assert.ok(dragged > morning + 480, `from ${morning} to ${dragged} min`);
+  await p.until(([from]) => Math.abs(Number(document.querySelector(".map").dataset.shadow.split(",")[0]) - from) > 90, [azimuth]);
+  asked.slice(1).forEach((time, k) => assert.ok(time - asked[k] > 130, `${time - asked[k]} ms between two pictures`));
+  await p.keyboard.press("ArrowRight");
+  assert.ok([4, 5, 6].includes((await clock()) - dragged));
+  await p.until((text) => location.hash.includes("sun=shadow") && location.hash.includes("at=2016-03-22T") && !location.hash.includes(text), encodeURIComponent(at));
+
+  // The share of the sol's daylight has the colours of its legend.
+  await p.click('[data-shows="share"]');
+  await p.until(() => document.querySelector(".map").dataset.shadow.includes(";"));
+  const strip = `v1/terrains/gale/shadow.png?bounds=8142500,-276600,8142600,-276599&sun=`;
+  const ends = await p.evaluate(async (addresses) => {
+    const canvas = document.createElement("canvas").getContext("2d");
+    return Promise.all(addresses.map(async (address) => {
+      const image = await createImageBitmap(await (await fetch(address)).blob());
+      canvas.clearRect(0, 0, 10, 10);
+      canvas.drawImage(image, 0, 0);
+      return [...canvas.getImageData(2, 0, 1, 1).data].slice(0, 3);
+    }));
+  }, ["0,-1;0,-2", "0,89;0,89"].map((suns) => `${service.url}/${strip}${suns}`));
+  const legend = await p.$$eval(".day .swatch", (list) => list.map((s) => getComputedStyle(s).backgroundColor.match(/\d+/g).map(Number)));
+  for (const [end, entry] of [[ends[0], legend[0]], [ends[1], legend.at(-1)]]) assert.ok(end.every((v, i) => Math.abs(v - entry[i]) <= 2), `${end} is drawn, ${entry} in the legend`);
+  await p.look("43_sunlit_share");
+  await p.accessible("time of day");
+
+  // A plan for this sol: what is left empty is not asked; the answer's windows, its best departure, its charge.
+  await p.click("#panel-plan [data-departure] summary");
+  await p.click('#panel-plan [data-do="this-sol"]');
+  for (const [key, value] of [["charge_percent", "60"], ["min_charge_percent", "40"], ["min_sun_deg", "10"]]) await p.fill(`#plan-${key}`, value);
+  const [request] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/plans")), p.click('[data-do="plan"]')]);
+  const { from, to, ...rules } = request.postDataJSON().departure;
+  assert.deepEqual(rules, { charge_percent: 60, min_charge_percent: 40, min_sun_deg: 10 });
+  assert.ok(Math.abs(Date.parse(to) - Date.parse(from) - 88_775_000) < 180_000, `a sol from ${from} to ${to}`);
+  await settled(p);
+  await pause(300);
+  const job = new URLSearchParams(p.url().split("#")[1]).get("job");
+  const { departures } = (await (await p.request.get(`${service.url}/v1/jobs/${job}/result`)).json()).routes.features[0].properties.decision;
+  assert.ok(departures.windows.length > 0);
+  assert.equal(await p.locator(".windows li").count(), departures.windows.length);
+  assert.equal(await p.locator(".strip-window").count(), departures.windows.length);
+  assert.equal(await p.getAttribute("[data-departs]", "data-departs"), departures.best.departs);
+  await p.plain("windows");
+  await p.click('[data-do="show-departure"]');
+  await p.until((text) => document.querySelector(".day-told").textContent.includes(text), departures.best.departs.slice(11, 16));
+  await p.locator(".charts").focus();
+  await p.keyboard.press("Shift+ArrowRight");
+  await p.until(() => /\d\d:\d\d UTC/.test(document.querySelector("[data-lean]")?.textContent ?? ""));
+  assert.match(await p.textContent('.chart-box[aria-label^="Battery"] .readout'), /^(59|60)(\.\d)? \/ (59|60)(\.\d)? at /);
+  await p.look("44_windows");
+  await p.done();
+});
+
 test("390, finger: an example is a GO, a stretch says why, a goal is dragged", async () => {
   const p = await page("phone", "terrain=gale&routes=1");
   await p.waitForSelector(".terrain select");

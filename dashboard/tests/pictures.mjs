@@ -21,6 +21,15 @@ await picture("terrain=gale&start=8142635.32,-276686.33&goal=8142677.97,-276715.
   await p.click('[data-do="plan"]');
   await p.verdict();
 });
+await picture("terrain=gale&start=8142640,-276640&goal=8142655,-276645&at=2016-03-22T07:00:00Z&sun=shadow&when=from%3D2016-03-22T00:00:00Z,to%3D2016-03-23T00:00:00Z,charge_percent%3D60,min_charge_percent%3D40,min_sun_deg%3D10", "dashboard_day", async (p) => {
+  await p.click('[data-do="plan"]');
+  await p.verdict();
+  // From as far as the next shadows are.
+  await p.locator(".map").focus();
+  for (let k = 0; k < 3; ++k) await p.keyboard.press("-").then(() => p.waitForTimeout(400));
+  await p.locator(".strip").scrollIntoViewIfNeeded();
+  await p.locator('.chart-box[aria-label^="Battery"]').scrollIntoViewIfNeeded();
+});
 await picture("terrain=gale&tab=drives", "dashboard_diagnosis", async (p) => {
   await p.selectOption("#panel-drives select >> nth=0", "p05");
   await p.click('[data-do="diagnose"]');

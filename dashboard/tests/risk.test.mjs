@@ -119,12 +119,12 @@ test("work is followed by its events, and by asking where these do not come thro
   assert.ok(asked.filter((u) => /^\/jobs\/[0-9a-f]+$/.test(u)).length <= 2, asked.join());
   // Nothing is asked for while nothing happens.
   asked.length = 0;
-  await pause(3000);
-  assert.ok(asked.length <= 3, asked.join());
+  await pause(2100);
+  assert.ok(asked.length <= 1, asked.join());
   await p.click("#tab-jobs");
   asked.length = 0;
-  await pause(3000);
-  assert.ok(asked.length <= 3, asked.join());
+  await pause(2100);
+  assert.ok(asked.length <= 1, asked.join());
   await p.done();
 
   // A proxy that keeps events back.

@@ -54,24 +54,32 @@ std::string Query::text(const std::string& name) const {
 }
 
 std::vector<double> Query::required_numbers(const std::string& name) {
+  const auto rows = required_rows(name, false);
+  return rows.empty() ? std::vector<double>() : rows.front();
+}
+
+std::vector<std::vector<double>> Query::required_rows(const std::string& name, bool many) {
   const auto text = request_.query_value(name);
   if (!text) {
     fault(name, fmt::format("{} is missing", name));
     return {};
   }
-  std::vector<double> values;
+  std::vector<std::vector<double>> rows(1);
+  std::size_t values = 0;
   for (std::size_t from = 0; from <= text->size();) {
-    const std::size_t end = std::min(text->find(',', from), text->size());
+    const std::size_t end = std::min(text->find_first_of(many ? ",;" : ",", from), text->size());
     double value = 0.0;
+    ++values;
     if (!read(text->substr(from, end - from), value) || !std::isfinite(value)) {
-      fault(name, fmt::format("value {} of {} is {}, must be a number", values.size() + 1, name,
+      fault(name, fmt::format("value {} of {} is {}, must be a number", values, name,
                               in_quotes(text->substr(from, end - from))));
       return {};
     }
-    values.push_back(value);
+    rows.back().push_back(value);
+    if (end < text->size() && (*text)[end] == ';') rows.emplace_back();
     from = end + 1;
   }
-  return values;
+  return rows;
 }
 
 void Query::fault(const std::string& name, std::string message) {

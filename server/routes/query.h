@@ -24,6 +24,8 @@ class Query {
   std::string text(const std::string& name) const;
   // Numbers with commas between; empty with a fault where that is not what there is, or no number is finite.
   std::vector<double> required_numbers(const std::string& name);
+  // The same in rows, with semicolons between them; a single row without `many`.
+  std::vector<std::vector<double>> required_rows(const std::string& name, bool many = true);
   void fault(const std::string& name, std::string message);
   // A whole number in [1, most]; `initial` where the parameter is not given.
   std::size_t count(const std::string& name, std::size_t initial, std::size_t most);

@@ -1,6 +1,7 @@
 #include "server/routes/terrain_routes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -14,9 +15,14 @@
 #include <utility>
 
 #include "api/files/catalogue.h"
+#include "api/json/faults.h"
+#include "api/place_sky.h"
+#include "api/sunlight.h"
 #include "api/terrain_views/terrain_document.h"
 #include "api/terrain_views/terrain_picture.h"
 #include "api/terrain_views/terrain_profile.h"
+#include "core/angle.h"
+#include "core/utc.h"
 #include "dem/write/rgba_image.h"
 #include "server/routes/drawn_cache.h"
 #include "server/routes/query.h"
@@ -28,7 +34,14 @@ namespace {
 constexpr std::size_t kPictureBytes = 32'000'000;  // of pictures that are kept in memory
 constexpr std::string_view kPng = ".png";
 
+constexpr std::size_t kGrounds = 4;  // of extents that are kept: some 10 MB each
+
 using Site = std::shared_ptr<const api::TerrainSite>;
+
+struct KeptGround {
+  api::ShadowGround ground;
+  static std::size_t size() { return 1; }
+};
 
 // The text before ".png"; nothing of another name.
 std::optional<std::string_view> before_png(std::string_view name) {
@@ -41,6 +54,30 @@ int whole_number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? value : -1;
+}
+
+void no_farther(Query& query, const std::string& name, const std::vector<double>& coordinates_m) {
+  constexpr double kFarthest_m = 1e9;  // beyond every map of a planet: squares of it are still numbers
+  if (std::any_of(coordinates_m.begin(), coordinates_m.end(),
+                  [](double c) { return std::abs(c) > kFarthest_m; }))
+    query.fault(name, fmt::format("{} has a coordinate beyond {:g} m, where no map is", name, kFarthest_m));
+}
+
+// "azimuth,elevation;azimuth,elevation" in degrees.
+std::vector<sky::Bearing> suns_of(Query& query) {
+  std::vector<sky::Bearing> suns;
+  const std::vector<std::vector<double>> rows = query.required_rows("sun");
+  for (const std::vector<double>& row : rows) {
+    if (row.size() == 2 && std::abs(row[0]) <= 360.0 && std::abs(row[1]) <= 90.0)
+      suns.push_back({rad_from_deg(row[0]), rad_from_deg(row[1])});
+  }
+  if (suns.size() != rows.size())
+    query.fault(
+        "sun",
+        "each sun must be azimuth,elevation in degrees, within 360 and 90; a semicolon lies between two");
+  if (rows.size() > api::kMostSuns)
+    query.fault("sun", fmt::format("there are {} suns, must be at most {}", rows.size(), api::kMostSuns));
+  return suns;
 }
 
 class TerrainRoutes {
@@ -107,9 +144,7 @@ class TerrainRoutes {
         (path.size() % 2 != 0 || path.size() < 4 || path.size() > 2 * api::kMaxProfileCorners))
       query.fault("path", fmt::format("path has {} numbers, must have x and y of 2 to {} corners",
                                       path.size(), api::kMaxProfileCorners));
-    constexpr double kFarthest_m = 1e9;  // beyond every map of a planet: squares of it are still numbers
-    if (std::any_of(path.begin(), path.end(), [](double c) { return std::abs(c) > kFarthest_m; }))
-      query.fault("path", fmt::format("path has a coordinate beyond {:g} m, where no map is", kFarthest_m));
+    no_farther(query, "path", path);
     if (const auto error = query.error()) return problem_response(*error, &request);
     const auto site = site_of(request);
     if (!site) return problem_response(site.error(), &request);
@@ -120,6 +155,59 @@ class TerrainRoutes {
     HttpResponse response = document(api::write_profile(**site, query.text("legend"), *along));
     const std::string tag = tag_of(response.body);
     return tagged(std::move(response), tag, request);
+  }
+
+  HttpResponse sky(const HttpRequest& request) {
+    Query query(request, {"place", "from", "to"});
+    const std::vector<double> place = query.required_numbers("place");
+    if (!place.empty() && place.size() != 2) query.fault("place", "place must be x,y in metres of the map");
+    const auto time_of = [&](const std::string& name, const std::string& text) {
+      const auto ms = utc_of_text(text);
+      if (!ms && !text.empty())
+        query.fault(name, fmt::format("{} = {} is no time of UTC such as 2026-07-01T12:00:00Z", name,
+                                      in_quotes(text)));
+      return ms;
+    };
+    const auto from = time_of("from", query.required_text("from")), to = time_of("to", query.text("to"));
+    if (from && to && *to < *from) query.fault("to", "to is before from");
+    if (from && to && static_cast<double>(*to - *from) > 3.6e6 * api::kMostSky_h)
+      query.fault("to", fmt::format("to must be within {:.0f} h of from", api::kMostSky_h));
+    if (const auto error = query.error()) return problem_response(*error, &request);
+    const auto site = site_of(request);
+    if (!site) return problem_response(site.error(), &request);
+    const auto sky = api::sky_over(**site, place[0], place[1], *from, to);
+    if (!sky) return problem_response(sky.error(), &request);
+    HttpResponse response = document(api::write_place_sky(**site, *sky));
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
+  HttpResponse shadow(const HttpRequest& request) {
+    Query query(request, {"bounds", "sun", "v"});
+    const std::vector<double> bounds = query.required_numbers("bounds");
+    const dem::Extent extent =
+        bounds.size() == 4 ? dem::Extent{bounds[0], bounds[1], bounds[2], bounds[3]} : dem::Extent{};
+    if (!bounds.empty() && !(extent.west_m < extent.east_m && extent.south_m < extent.north_m))
+      query.fault("bounds",
+                  "bounds must be west,south,east,north in metres of the map, each below its other");
+    no_farther(query, "bounds", bounds);
+    const std::vector<sky::Bearing> suns = suns_of(query);
+    if (const auto error = query.error()) return problem_response(*error, &request);
+    const auto site = site_of(request);
+    if (!site) return problem_response(site.error(), &request);
+    const auto known = known_of(*site);
+    if (!known) return problem_response(known.error(), &request);
+    const std::string where = fmt::format("{}/{}", known->hash, fmt::join(bounds, ","));
+    const auto draw = [&]() -> Result<std::string> {
+      const auto kept = grounds_.get(where, [&]() -> Result<KeptGround> {
+        auto ground = api::ShadowGround::read(**site, extent);
+        if (!ground) return fail(ground.error());
+        return KeptGround{*std::move(ground)};
+      });
+      if (!kept) return fail(kept.error());
+      return dem::encode_png((*kept)->ground.draw(extent, suns));
+    };
+    return png(request, drawn_.get(where + "/" + query.text("sun"), draw), known->hash);
   }
 
  private:
@@ -166,16 +254,22 @@ class TerrainRoutes {
     const std::string key =
         fmt::format("{}/{}/{}/{}/{}/{}/{}/{}x{}", known->hash, static_cast<int>(wanted.layer), wanted.legend,
                     e.west_m, e.south_m, e.east_m, e.north_m, wanted.width_px, wanted.height_px);
-    const auto png = drawn_.get(key, [&]() -> Result<std::string> {
+    const auto draw = [&]() -> Result<std::string> {
       const auto image = api::draw_terrain(**site, wanted);
       if (!image) return fail(image.error());
       return dem::encode_png(*image);
-    });
-    if (!png) return problem_response(png.error(), &request);
-    HttpResponse response = document(**png);
+    };
+    return png(request, drawn_.get(key, draw), known->hash);
+  }
+
+  // What was drawn of the terrain of this hash.
+  static HttpResponse png(const HttpRequest& request, const Result<DrawnCache<std::string>::Kept>& drawn,
+                          const std::string& hash) {
+    if (!drawn) return problem_response(drawn.error(), &request);
+    HttpResponse response = document(**drawn);
     response.content_type = "image/png";
     // The address names what it is drawn from: it will never show anything else.
-    if (request.query_value("v") == known->hash)
+    if (request.query_value("v") == hash)
       response.headers = {{"Cache-Control", "private, max-age=31536000, immutable"}};
     const std::string tag = tag_of(response.body);
     return tagged(std::move(response), tag, request);
@@ -183,6 +277,7 @@ class TerrainRoutes {
 
   const api::Service& service_;
   DrawnCache<std::string> drawn_{kPictureBytes};
+  DrawnCache<KeptGround> grounds_{kGrounds};
   std::mutex mutex_;
   std::map<std::string, Known> known_;
 };
@@ -196,6 +291,10 @@ std::vector<Route> terrain_routes(const api::Service& service) {
        Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/profile",
        [terrains](const HttpRequest& r) { return terrains->profile(r); }, Threads::kHeavy},
+      {"GET", "/v1/terrains/{name}/sky", [terrains](const HttpRequest& r) { return terrains->sky(r); },
+       Threads::kHeavy},
+      {"GET", "/v1/terrains/{name}/shadow.png",
+       [terrains](const HttpRequest& r) { return terrains->shadow(r); }, Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/{picture}",
        [terrains](const HttpRequest& r) { return terrains->picture(r); }, Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/tiles/{layer}/{z}/{x}/{y}",

@@ -1,12 +1,18 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "api/jobs/open_job_store.h"
 #include "api/json/parse.h"
+#include "api/place_sky.h"
+#include "api/sunlight.h"
 #include "api/terrain_views/terrain_document.h"
 #include "api/terrain_views/terrain_picture.h"
 #include "api/terrain_views/terrain_profile.h"
+#include "core/angle.h"
+#include "core/utc.h"
 #include "server/routes/responses.h"
 #include "server/routes/routes.h"
 #include "small_world.h"
@@ -206,6 +212,57 @@ TEST_F(TerrainRoutes, WhatIsNotThereIsNotFoundAndWhatIsWrongIsNamedAtOnce) {
   EXPECT_EQ(faults_of(get("/v1/terrains/yard/profile", {{"path", "1,2,3"}})),
             (std::vector<std::string>{"/path"}));
   EXPECT_EQ(faults_of(get("/v1/terrains/yard/profile")), (std::vector<std::string>{"/path"}));
+}
+
+TEST_F(TerrainRoutes, AShadowIsAPictureOfTheBoundsUnderTheSunsAndEveryFaultIsNamed) {
+  const dem::Extent map = yard().info().geometry.extent();
+  const std::string bounds = fmt::format("{},{},{},{}", map.west_m, map.south_m, map.east_m, map.north_m);
+  const auto picture = get("/v1/terrains/yard/shadow.png", {{"bounds", bounds}, {"sun", "270,5"}});
+  ASSERT_EQ(picture.status, 200) << picture.body;
+  EXPECT_EQ(picture.content_type, "image/png");
+  const auto ground = ShadowGround::read(yard(), map);
+  ASSERT_TRUE(ground);
+  const auto drawn = [&](const std::vector<sky::Bearing>& suns) {
+    return dem::encode_png(ground->draw(map, suns)).value();
+  };
+  EXPECT_EQ(picture.body, drawn({{1.5 * std::numbers::pi, rad_from_deg(5.0)}}));
+  const auto share = get("/v1/terrains/yard/shadow.png", {{"bounds", bounds}, {"sun", "270,5;90,5"}});
+  EXPECT_EQ(share.body, drawn({{1.5 * std::numbers::pi, rad_from_deg(5.0)},
+                               {0.5 * std::numbers::pi, rad_from_deg(5.0)}}));
+  EXPECT_NE(share.body, picture.body);
+  const auto faults = [&](server::NamedValues query) {
+    return faults_of(get("/v1/terrains/yard/shadow.png", std::move(query)));
+  };
+  using Pointers = std::vector<std::string>;
+  EXPECT_EQ(faults({{"at", "noon"}}), (Pointers{"/at", "/bounds", "/sun"}));
+  EXPECT_EQ(faults({{"bounds", "1,2,1,4"}, {"sun", "0,91"}}), (Pointers{"/bounds", "/sun"}));
+  EXPECT_EQ(faults({{"bounds", "1,2,3"}, {"sun", "1,2,3"}}), (Pointers{"/bounds", "/sun"}));
+  EXPECT_EQ(faults({{"bounds", "-1e308,0,1e308,1"}, {"sun", "1,2"}}), (Pointers{"/bounds"}));
+  EXPECT_EQ(faults({{"bounds", "1;2"}, {"sun", "1,2;"}}), (Pointers{"/bounds", "/sun"}));
+  std::string many = "0,1";
+  for (std::size_t k = 0; k < kMostSuns; ++k) many += ";0,1";
+  EXPECT_EQ(faults({{"bounds", bounds}, {"sun", many}}), (Pointers{"/sun"}));
+  EXPECT_EQ(get("/v1/terrains/yrd/shadow.png", {{"bounds", bounds}, {"sun", "0,1"}}).status, 404);
+}
+
+TEST_F(TerrainRoutes, ASkyIsThatOverThePlaceAndItsFaultsAreNamed) {
+  const std::string noon = "2026-07-01T12:00:00Z";
+  const auto sky = get("/v1/terrains/yard/sky", {{"place", "10,10"}, {"from", noon}, {"to", noon}});
+  ASSERT_EQ(sky.status, 200) << sky.body;
+  const auto known = sky_over(yard(), 10.0, 10.0, utc_of_text(noon).value(), utc_of_text(noon));
+  EXPECT_EQ(sky.body, write_place_sky(yard(), known.value()));
+  EXPECT_EQ(get("/v1/terrains/yard/sky", {{"place", "1e6,10"}, {"from", noon}}).status, 422) << "off the map";
+  using Pointers = std::vector<std::string>;
+  EXPECT_EQ(faults_of(get("/v1/terrains/yard/sky", {{"place", "1"}, {"from", "noon"}, {"sun", "0,1"}})),
+            (Pointers{"/sun", "/place", "/from"}));
+  const auto turned =
+      get("/v1/terrains/yard/sky",
+          {{"place", "1,2"}, {"from", "2026-07-01T12:00:00Z"}, {"to", "2026-07-01T11:00:00Z"}});
+  EXPECT_EQ(faults_of(turned), (Pointers{"/to"}));
+  const auto long_one =
+      get("/v1/terrains/yard/sky",
+          {{"place", "1,2"}, {"from", "2026-07-01T12:00:00Z"}, {"to", "2026-07-04T12:00:00Z"}});
+  EXPECT_EQ(faults_of(long_one), (Pointers{"/to"}));
 }
 
 TEST_F(TerrainRoutes, AProfileHasNullsWhereTheMapHasNothing) {

@@ -165,6 +165,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/terrains/{name}/sky": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Sun and Earth over a place through the day
+         * @description On Mars [Allison and McEwen 2000]; elsewhere the sky of a request is a table of its own. Moments are equally far apart, by 15 minutes at most.
+         */
+        get: operations["terrain_sky"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/terrains/{name}/shadow.png": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Where the ground lies in shadow, as a picture to lay over a map
+         * @description The ground is lit where the sun stands over the level and over the horizon of the ground, all of which casts shadows, outside the bounds too. Under one sun: transparent where the ground is lit, dark where it lies in shadow. Under several: in which share of them it is lit, in five classes from dark blue (below a quarter) over a half, three quarters and nine tenths to yellow. Transparent where the terrain has no height. At most 256 cells a side. It knows no time: directions of the sun are those of GET /v1/terrains/{name}/sky.
+         */
+        get: operations["terrain_shadow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/terrains/{name}/{picture}": {
         parameters: {
             query?: never;
@@ -3295,6 +3335,55 @@ export interface components {
                 earth_elevation_deg?: number;
             }[];
         };
+        /** @description Sun and Earth over a place at some moments */
+        PlaceSky: {
+            terrain: string;
+            /** @description Of the place, east [m] */
+            x_m: number;
+            /** @description Of the place, north [m] */
+            y_m: number;
+            /** @description East [deg] */
+            longitude_deg: number;
+            /** @description Planetocentric [deg] */
+            latitude_deg: number;
+            moments: {
+                /**
+                 * Format: date-time
+                 * @description UTC
+                 */
+                at: string;
+                /** @description Mars sol date: sols at the prime meridian since 29 December 1873 */
+                sol_date: number;
+                /** @description Season Ls [deg] */
+                solar_longitude_deg: number;
+                /** @description Local mean solar time [h] */
+                mean_solar_h: number;
+                /** @description Local true solar time [h] */
+                true_solar_h: number;
+                /** @description Of the sun, planetocentric [deg] */
+                declination_deg: number;
+                /** @description From the sun [au] */
+                sun_distance_au: number;
+                /** @description Where the sun stands */
+                sun: {
+                    /** @description Clockwise from the map's north [deg] */
+                    azimuth_deg: number;
+                    /** @description Over the level [deg] */
+                    elevation_deg: number;
+                };
+                /** @description Where the Earth stands */
+                earth: {
+                    /** @description Clockwise from the map's north [deg] */
+                    azimuth_deg: number;
+                    /** @description Over the level [deg] */
+                    elevation_deg: number;
+                };
+                /** @description Of the ground below the sun, over the level; 0 where that lies below it [deg] */
+                horizon_deg: number;
+                /** @description The sun is over the level and over the ground's horizon, as seen from the ground */
+                lit: boolean;
+            }[];
+        };
         /** @description A drive from one departure on */
         DepartedDrive: {
             /**
@@ -4738,6 +4827,136 @@ export interface operations {
                 content?: never;
             };
             /** @description not_found: no such terrain or legend */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description invalid_request: faults by parameter */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    terrain_sky: {
+        parameters: {
+            query: {
+                /** @description x,y in metres of the map */
+                place: string;
+                /** @description The first moment, in UTC: 2026-07-01T12:00:00Z */
+                from: string;
+                /** @description The last, within 50 hours. When absent the moments are those of the sol of local true solar time in which from lies, from midnight to midnight */
+                to?: string;
+            };
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The moments */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlaceSky"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found: no such terrain */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description invalid_request: faults by parameter, or the sky over this terrain is not computed; off_map, no_data */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    terrain_shadow: {
+        parameters: {
+            query: {
+                /** @description west,south,east,north in metres of the map */
+                bounds: string;
+                /** @description azimuth,elevation of the sun in degrees, clockwise from the map's north and over the level; of up to 100 suns with semicolons between: azimuth,elevation;azimuth,elevation */
+                sun: string;
+                /** @description The terrain's hash: the answer may then be kept for ever */
+                v?: string;
+            };
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The picture */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": string;
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found: no such terrain */
             404: {
                 headers: {
                     [name: string]: unknown;

@@ -3,6 +3,7 @@ import { fill, h, svg } from "../dom";
 import { number, share, words } from "../format";
 import { store, type State } from "../state";
 import { stationAt } from "../result";
+import { utcText } from "../sky";
 import { leanText, poseAt } from "./rover_mark";
 
 const [width, height] = [64, 44];
@@ -27,7 +28,7 @@ export function leanView(target: HTMLElement): void {
     // Seen from its right side the nose is to the right; seen from behind its right side is.
     fill(target,
       h("div", { class: "views" }, view(pose.pitch_deg, [-20, 0, 20], 17, "from its side, nose to the right"), view(pose.roll_deg, [-14, 14], 13, "from behind")),
-      h("p", { "data-lean": true }, `${s.distance_m[i]!.toFixed(1)} m: ${leanText(pose)}`, h("br"), h("span", {}, `slip ${number(s.slip_p50[i] ?? s.slip[i], 2)}, ${s.on_unknown_ground[i] ? "unknown ground" : words(s.soil[i] ?? "unknown ground")}, halts ${share(s.risk[i])}`)));
+      h("p", { "data-lean": true }, `${s.distance_m[i]!.toFixed(1)} m: ${leanText(pose)}`, s.at_ms ? `, ${utcText(s.at_ms[i]!).slice(11)}` : "", h("br"), h("span", {}, `slip ${number(s.slip_p50[i] ?? s.slip[i], 2)}, ${s.on_unknown_ground[i] ? "unknown ground" : words(s.soil[i] ?? "unknown ground")}, halts ${share(s.risk[i])}`)));
   };
   let asked = 0;
   // At most once a frame: the pointer moves faster.

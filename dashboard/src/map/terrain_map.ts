@@ -24,6 +24,7 @@ import { riskLayer, type RiskLayer } from "./risk_layer";
 import type { RiskKind, RiskMap } from "./risk_types";
 import { RoutesLayer } from "./routes_layer";
 import { groundResolution, roundLength, ScaleBar } from "./scale_bar";
+import { ShadowLayer } from "./shadow_layer";
 
 const overlays: LayerName[] = ["slope", "soil", "unknown"];
 const reach_px = 14; // of the pointer to a route
@@ -33,6 +34,7 @@ export class TerrainMap {
   private readonly routes = new RoutesLayer();
   private readonly drawn: DrawnLayer;
   private readonly gap = new GapLayer();
+  private readonly shadow: ShadowLayer;
   private layers = new Map<string, TileLayer<TileImage>>();
   private risk = new Map<RiskKind, { of: RiskMap["raster"]; layer: RiskLayer }>();
   private bare = ""; // a campaign's own ground that is shown, of which there is no map
@@ -50,6 +52,9 @@ export class TerrainMap {
       controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleBar()]),
       layers: [this.routes.layer, this.routes.labels.layer, this.routes.markerLayer, this.gap.layer, this.gap.ringLayer],
     });
+    this.shadow = new ShadowLayer(this.map, () => this.isTerrain);
+    this.swipeable(this.shadow.layer);
+    this.map.addLayer(this.shadow.layer);
     this.drawn = new DrawnLayer(this.map);
     this.map.addLayer(this.drawn.layer);
     // What a tool places is there at once; what a click looks at may still become a double click, which zooms.
@@ -151,6 +156,7 @@ export class TerrainMap {
       this.map.addLayer(tileLayer);
     }
     if (moved) {
+      this.shadow.use(body.projection);
       this.map.setView(new View({ projection: body.projection, extent: grown(extent), constrainOnlyCenter: true, showFullExtent: true, maxResolution: (tiles.metres_per_px![0] ?? 1) * 2, minResolution: 0.01 }));
       this.map.getView().fit(extent, { padding: this.margins(20) });
     }

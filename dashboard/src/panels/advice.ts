@@ -10,8 +10,8 @@ type Advice = Route["decision"]["advice"][number];
 
 const scout_m = 5;
 
-/** A reason as the service says it; names of rules and soils have their underscores as spaces. */
-export const reasonText = (reason: string): string => sentence(words(reason));
+/** A reason as the service says it; names of rules and soils have their underscores as spaces, times no seconds. */
+export const reasonText = (reason: string): string => sentence(words(reason.replace(/(\d{4}-\d\d-\d\d)T(\d\d:\d\d):[\d.]+Z/g, "$1 $2 UTC")));
 
 function act(result: Result, advice: Advice, show: (from_m: number, to_m: number) => void): HTMLElement | null {
   switch (advice.kind) {

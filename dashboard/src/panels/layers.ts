@@ -5,6 +5,7 @@ import type { TerrainMap } from "../map/terrain_map";
 import { shareClasses, shareColours } from "../limits";
 import { classLabels, classTitles } from "../result";
 import { palettes, store, usualBounds, usualPalette, type LayerName, type RouteColour, type State } from "../state";
+import { dayPanel } from "./day";
 import { gapControls } from "./diagnosis";
 import { riskLayers } from "./risk_layers";
 
@@ -23,9 +24,11 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   const legends = h("div");
   const riskLegends = h("div");
   const gap = h("div");
+  const day = h("details", { class: "day", "data-time-of-day": true });
   const isWide = matchMedia("(min-width: 80rem)").matches; // elsewhere the map is what there is room for
   const ofTerrain = h("div", {},
     h("details", { open: isWide }, h("summary", {}, "Layers"), switches, swipe),
+    day,
     h("details", { "data-risks": true }, h("summary", {}, "Risk of the ground"), risks),
     h("details", { open: matchMedia("(min-width: 60rem)").matches }, h("summary", {}, "Legend"), riskLegends, legends, routes));
   fill(target, gap, ofTerrain, h("details", {}, h("summary", {}, "Colours and classes"), classes));
@@ -36,6 +39,7 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   });
   switches.append(...(Object.keys(titles) as LayerName[]).map(layerSwitch));
   riskLayers(risks, riskLegends, map);
+  dayPanel(day);
   const line = h("input", { type: "range", min: 0, max: 1, step: 0.01, value: 1, "aria-label": "Swipe: layers are shown to the left of it", oninput: () => store.set({ swipe: Number(line.value) >= 1 ? null : Number(line.value) }) });
   fill(swipe, h("div", { class: "layer" }, h("span", {}, "Swipe"), line));
   // Where no route is, its colours mean nothing.

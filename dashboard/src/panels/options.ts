@@ -3,12 +3,14 @@ import { button, field, fill, folded, h, select } from "../dom";
 import { bareName, number, roverWords, sentence, wheelWords, words } from "../format";
 import { limits } from "../limits";
 import { store, type State } from "../state";
+import { departureFields, hasSky, solOnMap } from "./departure";
 
 export function options(target: HTMLElement, id: string): void {
   const common = h("div");
   const belief = h("details");
   const rover = h("details");
-  fill(target, common, belief, rover);
+  const day = h("details", { "data-departure": true });
+  fill(target, common, belief, rover, day);
   const keepFocus = (element: HTMLElement, draw: () => void) => {
     const active = document.activeElement?.id;
     draw();
@@ -19,7 +21,23 @@ export function options(target: HTMLElement, id: string): void {
   store.on(["terrain", "options"], () => keepFocus(belief, drawBelief));
   const drawRover = folded(rover, () => `Effects and failed wheels${changed(store.state)}`, () => roverFields(store.state, id));
   store.on(["effects", "rovers", "options"], () => keepFocus(rover, drawRover));
+  let typed = store.state.options.departure; // here: the fields that are typed into stay
+  const drawDay = folded(day, dayTitle, () => departureFields(store.state, id, (departure) => {
+    typed = departure;
+    store.option({ departure });
+    day.querySelector("summary")!.textContent = dayTitle();
+  }));
+  let drawn = "";
+  store.on(["terrain", "options", "sol"], (state) => {
+    const now = `${hasSky(state)} ${solOnMap(state) !== null}`;
+    if (now === drawn && state.options.departure === typed) return;
+    drawn = now;
+    typed = state.options.departure;
+    drawDay();
+  });
 }
+
+const dayTitle = (): string => `When it may begin${Object.keys(store.state.options.departure).length > 0 ? " (asked)" : ""}`;
 
 function commonFields(state: State, id: string): (HTMLElement | null)[] {
   const { options: chosen, rovers, rules } = state;

@@ -1,7 +1,8 @@
 // What is asked for, as the API takes it.
 import type { CheckRequest, Limits, MapRequest, PlanRequest } from "../api/client";
 import type { RiskKind } from "../map/risk_types";
-import { store, type Stale, type State } from "../state";
+import { store, type Departure, type Stale, type State } from "../state";
+import { hasSky } from "./departure";
 
 /** The limits that the form asks for: the chosen rules', with those that were moved. */
 function limitsOf(state: State): { limits?: Limits } {
@@ -44,6 +45,23 @@ const weights = ({ options }: State): Pick<PlanRequest, "weights"> => (Object.ke
 
 const draws = ({ options }: State): Pick<PlanRequest, "draws"> => (options.draws !== null ? { draws: options.draws } : {});
 
+const air = ["coldest_c", "warmest_c"];
+
+/** What is asked of the day. */
+function departureOf(state: State): Pick<PlanRequest, "departure"> {
+  const { from, to, arrive_by, ...numbers } = state.options.departure;
+  if (!from || !hasSky(state)) return {};
+  const given = (of_air: boolean) => Object.fromEntries(Object.entries(numbers).filter(([key]) => air.includes(key) === of_air).map(([key, value]) => [key, Number(value)]));
+  const of_air = given(true) as NonNullable<NonNullable<PlanRequest["departure"]>["air"]>;
+  return { departure: { from, ...(to ? { to } : {}), ...(arrive_by ? { arrive_by } : {}), ...given(false), ...(Object.keys(of_air).length > 0 ? { air: of_air } : {}) } };
+}
+
+/** The same as the form has it. */
+export function formOf(departure: PlanRequest["departure"]): Departure {
+  const { air: of_air, sky: _, ...rest } = departure ?? {};
+  return Object.fromEntries(Object.entries({ ...rest, ...of_air }).map(([key, value]) => [key, String(value).replace(/\.000Z$/, "Z")]));
+}
+
 /** Without a goal it is no request yet. */
 export function planDraft(state: State = store.state): Omit<PlanRequest, "goal"> & Partial<Pick<PlanRequest, "goal">> {
   const { options, drawn } = state;
@@ -55,6 +73,7 @@ export function planDraft(state: State = store.state): Omit<PlanRequest, "goal">
     ...weights(state),
     ...draws(state),
     ...(options.routes !== 3 ? { routes: options.routes } : {}),
+    ...departureOf(state),
     ...rulesOf(state),
   };
 }
@@ -81,6 +100,7 @@ export function checkRequest({ commands, soFar }: CheckParts, state: State = sto
     ...(soFar.length > 0 ? { drive_so_far: { rows: soFar } } : {}),
     ...(commands ? { ...(commands.start ? { start: commands.start } : {}), commands: commands.list } : { path: state.drawn.path }),
     ...draws(state),
+    ...departureOf(state),
     ...(state.options.rules ? { rules: state.options.rules } : {}),
     ...(Object.keys(limits).length > 0 ? { limits } : {}),
   };

@@ -9,6 +9,7 @@ import { causeWords } from "../why";
 import { adviceView, reasonText } from "./advice";
 import { exportsView } from "./exports";
 import { limitSliders } from "./limits";
+import { windowsView } from "./windows";
 
 function rulesTable(route: Route, map: TerrainMap): HTMLElement {
   const row = (rule: Rule) => {
@@ -161,6 +162,7 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
       route && [
         h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${roverWords(result.rover)}`), route.outcomes.draws > 0 && h("small", { "data-stop": true }, stopText(route))),
         ...adviceView(result, route, map),
+        ...windowsView(route),
         sliders,
         result.driven.length > 0 && driven(result),
         comparison(result, other),

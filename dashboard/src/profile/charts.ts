@@ -4,7 +4,7 @@ import type { Limits } from "../api/client";
 import { fill, h, swatch } from "../dom";
 import { number, share } from "../format";
 import { empty } from "../problem";
-import { tripsOf, type DrivenStretch, type Route, type Stations } from "../result";
+import { resampled, tripsOf, type DrivenStretch, type Route, type Stations } from "../result";
 import { store, type State } from "../state";
 import { FollowedCharts } from "./followed_charts";
 import { lineSwatch, paintGround, paintLimits, token, type Painted } from "./painting";
@@ -13,11 +13,11 @@ type Values = (number | null)[];
 interface Chart {
   key: string;
   title: string;
-  line: (s: Stations, ends_m: number[]) => Values; // of the route's segments
+  line: (s: Stations, ends_m: number[]) => Values | undefined; // of the route's segments; undefined: not asked for
   digits?: number;
   low?: (s: Stations) => Values;
   high?: (s: Stations) => Values;
-  second?: { title: string; line: (s: Stations) => Values };
+  second?: { title: string; line: (s: Stations) => Values | undefined };
   limit?: string; // key in the request's limits
   beyond?: { key: string; words: string }; // and of a second one, behind which it is worse
   both?: boolean; // the limit holds to both sides
@@ -52,7 +52,12 @@ export const charts: Chart[] = [
   { key: "attitude", title: "Pitch and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
+  { key: "charge", title: "Battery (dashed: at the slow pace), %", line: (s) => s.charge_percent, second: { title: "slow pace", line: (s) => s.charge_low_percent }, limit: "min_charge_percent" },
+  { key: "in_out", title: "Power in and out (dashed), W", line: (s) => s.in_w, second: { title: "out", line: (s) => s.out_w } },
+  { key: "sun", title: "Sun over the ground's horizon, deg", line: (s) => s.sun_over_horizon_deg },
 ];
+/** Charts of the day are there where it was asked for. */
+const offered = ({ stations }: Route): Chart[] => charts.filter(({ line }) => line(stations, []) !== undefined);
 /** Each wheel's own, with the mean soils. */
 const wheelCharts = [
   { key: "slip", title: "Wheels: slip, ratio" },
@@ -72,20 +77,7 @@ const axes = (): uPlot.Axis[] => {
   const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
   return [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 66, space: 18, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }];
 };
-const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
-
-/** Values of another route at the distances of the first, so that both are on one axis. */
-export function resampled(values: Values, from: number[], at: number[]): Values {
-  let k = 0;
-  return at.map((d) => {
-    if (from.length === 0 || d > from.at(-1)! || d < from[0]!) return null;
-    while (k + 2 < from.length && from[k + 1]! < d) ++k;
-    const [a, b] = [values[k] ?? null, values[k + 1] ?? null];
-    if (a === null || b === null) return null;
-    const span = from[k + 1]! - from[k]!;
-    return span > 0 ? a + ((b - a) * Math.max(0, d - from[k]!)) / span : b;
-  });
-}
+const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current", "charge", "in_out"];
 
 type Read = number | null | undefined;
 function readoutOf([line, low, high, second, other]: Read[], digits: number, at_m: number): string {
@@ -148,20 +140,20 @@ export class ProfileCharts {
       return;
     }
     const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
-    fill(this.target, this.choice(second ? (state.compared !== null ? second.title : `kept ${second.title.toLowerCase()}`) : ""), this.list);
+    fill(this.target, this.choice(route, second ? (state.compared !== null ? second.title : `kept ${second.title.toLowerCase()}`) : ""), this.list);
     this.list.replaceChildren();
     for (const chart of wheelCharts) if (this.shown.has(chart.title)) this.addWheels(chart, route.stations, limitsOf(chart, state.result!.limits));
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
     const tripped = new Set<string>(tripsOf(route).map((rule) => rule.rule));
-    for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, { ...state.result!.limits, ...state.options.limits });
+    for (const chart of offered(route)) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, { ...state.result!.limits, ...state.options.limits });
     this.point(state);
   }
 
-  private choice(second: string): HTMLElement {
+  private choice(route: Route, second: string): HTMLElement {
     return h(
       "div",
       { class: "chips", role: "group", "aria-label": "Which series are shown" },
-      [...charts, ...wheelCharts.map(({ title }) => ({ key: title, title }))].map(({ key, title }) => {
+      [...offered(route), ...wheelCharts.map(({ title }) => ({ key: title, title }))].map(({ key, title }) => {
         const pressed = this.shown.has(key);
         return h("button", { type: "button", class: "chip", "aria-pressed": String(pressed), onclick: () => {
           if (pressed) this.shown.delete(key);
@@ -181,8 +173,8 @@ export class ProfileCharts {
     take(limits);
     const held = () => painted.limits.slice(0, chart.both ? 2 : 1).map((l) => l.at);
     const ends_m = ({ outcomes: { segments } }: Route) => (segments ?? []).map((segment) => segment.to_m);
-    const columns: (Values | null)[] = [chart.line(s, ends_m(route)), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
-    columns.push(second ? resampled(chart.line(second.stations, ends_m(second)), second.stations.distance_m, s.distance_m) : null);
+    const columns: (Values | null)[] = [chart.line(s, ends_m(route)) ?? null, chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
+    columns.push(second ? resampled(chart.line(second.stations, ends_m(second)) ?? [], second.stations.distance_m, s.distance_m) : null);
     const given = columns.map((c) => c ?? s.distance_m.map(() => null));
     const readout = h("span", { class: "readout" });
     const box = h("div", { class: "chart" });

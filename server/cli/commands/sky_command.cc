@@ -14,6 +14,7 @@
 #include "api/departure_setting.h"
 #include "api/files/catalogue.h"
 #include "api/json/writer.h"
+#include "api/place_sky.h"
 #include "core/angle.h"
 #include "core/utc.h"
 #include "dem/body_degrees.h"
@@ -23,7 +24,6 @@
 #include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/data_option.h"
 #include "server/cli/terminal/terminal_progress.h"
-#include "sky/mars_time.h"
 
 namespace slipway::server {
 namespace {
@@ -71,37 +71,24 @@ struct Answer {
   std::optional<std::vector<double>> horizon_rad = {};
 };
 
-void write_bearing(api::json::Writer& w, std::string_view key, const sky::Bearing& bearing) {
-  w.key(key).begin_object().significant("azimuth_deg", deg_from_rad(bearing.azimuth_rad));
-  w.significant("elevation_deg", deg_from_rad(bearing.elevation_rad)).end_object();
-}
-
 std::string printed(const Answer& answer, bool json) {
   api::json::Writer w;
   w.begin_object().text("format", "sky/1").text("at", utc_text(answer.utc_ms));
   std::string out = fmt::format("At {} (UTC)\n", utc_text(answer.utc_ms));
   if (answer.place.degrees) {
-    const double east = rad_from_deg(answer.place.degrees->x), north = rad_from_deg(answer.place.degrees->y);
-    const sky::MarsTime time = sky::mars_time(answer.utc_ms, east);
-    const sky::Bearing sun = sky::mars_sun(answer.utc_ms, east, north),
-                       earth = sky::mars_earth(answer.utc_ms, east, north);
+    const api::SkyMoment moment = api::sky_moment(answer.utc_ms, *answer.place.degrees);
     w.significant("longitude_deg", answer.place.degrees->x)
         .significant("latitude_deg", answer.place.degrees->y);
-    w.exact("sol_date", time.sol_date).exact("solar_longitude_deg", deg_from_rad(time.season_rad));
-    w.exact("mean_solar_h", time.mean_solar_h).exact("true_solar_h", time.true_solar_h);
-    w.significant("declination_deg", deg_from_rad(time.declination_rad));
-    w.significant("sun_distance_au", time.sun_distance_au);
-    write_bearing(w, "sun", sun);
-    write_bearing(w, "earth", earth);
+    api::write_sky_moment(w, moment);
     const auto clock = [](double hours) {
       const long seconds = std::lround(3600.0 * hours);
       return fmt::format("{:02}:{:02}:{:02}", seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
     };
     out += fmt::format(
         "Mars at {:.4f} deg east, {:.4f} deg north: Ls {:.3f} deg, local mean solar time {}, true {}\n",
-        answer.place.degrees->x, answer.place.degrees->y, deg_from_rad(time.season_rad),
-        clock(time.mean_solar_h), clock(time.true_solar_h));
-    for (const auto& [name, bearing] : {std::pair{"Sun", &sun}, {"Earth", &earth}})
+        answer.place.degrees->x, answer.place.degrees->y, deg_from_rad(moment.time.season_rad),
+        clock(moment.time.mean_solar_h), clock(moment.time.true_solar_h));
+    for (const auto& [name, bearing] : {std::pair{"Sun", &moment.sun}, {"Earth", &moment.earth}})
       out += fmt::format("{}: azimuth {:.2f} deg, elevation {:.2f} deg\n", name,
                          deg_from_rad(bearing->azimuth_rad), deg_from_rad(bearing->elevation_rad));
   }

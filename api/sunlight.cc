@@ -1,0 +1,80 @@
+#include "api/sunlight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "api/departure_setting.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr double kMostSide = 256.0;  // of a picture, in cells
+
+dem::GridGeometry cells_of(const dem::Extent& extent) {
+  const double width_m = extent.east_m - extent.west_m, height_m = extent.north_m - extent.south_m;
+  const auto cells = [&](double m) {
+    return std::max(1, static_cast<int>(std::lround(kMostSide * m / std::max(width_m, height_m))));
+  };
+  const int rows = cells(height_m), columns = cells(width_m);
+  return {rows, columns, extent.west_m, extent.north_m, width_m / columns, height_m / rows};
+}
+
+dem::Rgba colour_of(double share) {
+  const auto* const found = std::find_if(kSunlitClasses.begin(), kSunlitClasses.end(),
+                                         [&](const SunlitClass& each) { return share < each.below; });
+  return found == kSunlitClasses.end() ? kSunlitClasses.back().colour : found->colour;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const dem::Terrain>> ground_of(const TerrainSite& site, const dem::Extent& extent) {
+  constexpr double kMostCells = 512.0;  // along a side
+  const dem::GridGeometry& whole = site.info().geometry;
+  const dem::Extent map = whole.extent();
+  const dem::Extent near{std::max(extent.west_m, map.west_m), std::max(extent.south_m, map.south_m),
+                         std::min(extent.east_m, map.east_m), std::min(extent.north_m, map.north_m)};
+  const auto window = whole.window(near);
+  if (!window) return site.read_samples(map, std::max(whole.rows, whole.columns));
+  return site.read_samples(near,
+                           static_cast<int>(std::ceil(std::max(window->rows, window->columns) / kMostCells)));
+}
+
+ShadowGround::ShadowGround(std::shared_ptr<const dem::Terrain> near, double body_radius_m,
+                           const std::shared_ptr<const dem::Terrain>& around)
+    : near_(std::move(near)), sweep_(*near_, body_radius_m) {
+  if (around) around_.emplace(*around, body_radius_m, near_->geometry().extent());
+}
+
+Result<ShadowGround> ShadowGround::read(const TerrainSite& site, const dem::Extent& extent) {
+  auto near = ground_of(site, extent);
+  if (!near) return fail(near.error());
+  const auto around = ground_around(site, **near);
+  if (!around) return fail(around.error());
+  return ShadowGround(std::move(*near), body_radius_m(site.info().body), *around);
+}
+
+dem::RgbaImage ShadowGround::draw(const dem::Extent& extent, const std::vector<sky::Bearing>& suns) const {
+  const dem::GridGeometry cells = cells_of(extent);
+  const dem::Eyes eyes = dem::eyes_over(*near_, cells, 0.0);
+  dem::RgbaImage image(cells.rows, cells.columns);
+  std::vector<int> lit(image.pixels.size(), 0);
+  for (const sky::Bearing& sun : suns) {
+    if (sun.elevation_rad <= 0.0) continue;
+    std::vector<float> horizon(lit.size(), -std::numeric_limits<float>::infinity());  // its tangent
+    sweep_.raise(eyes, sun.azimuth_rad, 1, horizon);
+    if (around_) around_->raise(eyes, sun.azimuth_rad, 1, horizon);
+    for (std::size_t k = 0; k < lit.size(); ++k) lit[k] += std::tan(sun.elevation_rad) > horizon[k] ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < lit.size(); ++k) {
+    if (std::isnan(eyes.heights_m[k])) continue;
+    if (suns.size() > 1)
+      image.pixels[k] = colour_of(lit[k] / static_cast<double>(suns.size()));
+    else if (lit[k] == 0)
+      image.pixels[k] = kShadow;
+  }
+  return image;
+}
+
+}  // namespace slipway::api
