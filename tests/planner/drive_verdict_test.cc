@@ -134,6 +134,11 @@ TEST(DriveVerdict, TheBodyKeepsTheAreasAlongItsMotions) {
   EXPECT_TRUE(verdict.reasons.front().starts_with("the rover's body would enter a keep-out at (9."))
       << verdict.reasons.front();
   EXPECT_EQ(judge_drive(problem, drive, {.motions = &past}).verdict, Verdict::kGo);
+  std::swap(problem.keep_in, problem.keep_out);
+  const DriveVerdict left = judge_drive(problem, drive, {.motions = &past});
+  EXPECT_EQ(left.verdict, Verdict::kNoGo);
+  EXPECT_TRUE(left.reasons.front().starts_with("the rover's body would leave a keep-in at (4.00, 4.00)"))
+      << left.reasons.front();
 }
 
 TEST(DriveVerdict, ADriveInMotionRefutesTheRouteOrLeavesItOpen) {
@@ -159,6 +164,7 @@ TEST(DriveVerdict, ADriveInMotionRefutesTheRouteOrLeavesItOpen) {
   EXPECT_EQ(judged_with(dynamic), broken);
   dynamic.broken_limits = {};
   EXPECT_EQ(judged_with(dynamic).first, Verdict::kGo);
+  dynamic.left_the_route = false;
   dynamic.end = sim::DriveEnd::kImmobilised;
   EXPECT_EQ(
       judged_with(dynamic),
@@ -166,7 +172,8 @@ TEST(DriveVerdict, ADriveInMotionRefutesTheRouteOrLeavesItOpen) {
 }
 
 sim::RuleRisk rule_risk(sim::Rule rule, double trips, double halts) {
-  sim::RuleRisk risk{.rule = rule};
+  sim::RuleRisk risk;
+  risk.rule = rule;
   risk.trips.share = trips;
   risk.halts = halts;
   risk.from_m = 2.0;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "core/angle.h"
 #include "tests/planner/ground_fixture.h"
 
@@ -35,24 +39,31 @@ sim::DrivePrediction drive_at(double pitch_deg, double roll_deg) {
   return drive;
 }
 
+sim::RuleRisk risk_of(Rule rule) {
+  sim::RuleRisk risk;
+  risk.rule = rule;
+  return risk;
+}
+
 TEST(VerdictWords, TheCauseIsHowTheGroundTiltsTheRover) {
-  const sim::RuleRisk slip{.rule = Rule::kSlipCheck};
+  const sim::RuleRisk slip = risk_of(Rule::kSlipCheck);
   EXPECT_EQ(cause_of(slip, drive_at(-8.0, 0.0)), "climb");
   EXPECT_EQ(cause_of(slip, drive_at(-8.0, 9.0)), "cross_slope");
   EXPECT_EQ(cause_of(slip, drive_at(2.0, 1.0)), "soil");
   EXPECT_EQ(cause_of(slip, drive_at(8.0, 0.0)), "soil") << "down is no reason to slip";
-  EXPECT_EQ(cause_of({.rule = Rule::kTilt}, drive_at(3.0, 0.0)), "descent");
-  EXPECT_EQ(cause_of({.rule = Rule::kTilt}, drive_at(-3.0, 1.0)), "climb")
+  EXPECT_EQ(cause_of(risk_of(Rule::kTilt), drive_at(3.0, 0.0)), "descent");
+  EXPECT_EQ(cause_of(risk_of(Rule::kTilt), drive_at(-3.0, 1.0)), "climb")
       << "the ground's shape, however flat";
   sim::DrivePrediction backwards = drive_at(8.0, 0.0);
   backwards.stations[0].station.backwards = true;
   EXPECT_EQ(cause_of(slip, backwards), "climb");
-  EXPECT_EQ(cause_of({.rule = Rule::kSinkage}, drive_at(-8.0, 0.0)), "load") << "always";
+  EXPECT_EQ(cause_of(risk_of(Rule::kSinkage), drive_at(-8.0, 0.0)), "load") << "always";
   EXPECT_EQ(cause_of(slip, {}), "soil") << "nothing is known of the place";
 }
 
 sim::RuleRisk risk_of(Rule rule, double from_m, double to_m) {
-  sim::RuleRisk risk{.rule = rule, .limit = 0.4};
+  sim::RuleRisk risk = risk_of(rule);
+  risk.limit = 0.4;
   risk.value = {0.1, 0.2, 0.3};
   risk.trips.share = 0.25;
   risk.from_m = from_m;
@@ -112,6 +123,23 @@ TEST(VerdictWords, GroundThatNoMapNamesIsToldByItsClassWhereItHasOne) {
   EXPECT_NE(words().find("on firm,"), std::string::npos) << words();
 }
 
+TEST(VerdictWords, AClassOfTheSoilsOwnNameIsNotToldNorOneOfOtherGround) {
+  PlanProblem problem = problem_on(1, 2, 10.0, 10.0, [](double, double) { return 0.0; });
+  const std::vector<dem::SoilClass> legend{{0, "firm", "firm"}, {1, "b", "dune"}};
+  problem.soil_map = std::make_shared<dem::SoilMap>(
+      problem.terrain->geometry(), std::vector<std::int16_t>{0, 1}, std::vector<std::uint8_t>{1, 1}, legend);
+  problem.beliefs.known = {firm_soil("firm"), firm_soil("dune")};
+  sim::DrivePrediction drive = drive_at(0.0, 0.0);
+  drive.stations.push_back(drive.stations[0]);
+  drive.stations[0].station.pose = {5.0, 5.0, 0.0};
+  drive.stations[1].station.pose = {15.0, 5.0, 0.0};
+  drive.stations[1].soil = 1;
+  sim::RuleRisk tilt = risk_of(Rule::kTilt, 3.0, 3.0);
+  EXPECT_NE(halt_words(problem, drive, tilt).find("on firm,"), std::string::npos);
+  tilt.station = 1;
+  EXPECT_NE(halt_words(problem, drive, tilt).find("on dune (class b),"), std::string::npos);
+}
+
 TEST(VerdictWords, OnlyRulesThatTripOftenEnoughAreTold) {
   sim::DrivePrediction drive = drive_at(0.0, 0.0);
   drive.outcomes.rules = {risk_of(Rule::kTilt, 3.0, 3.0), risk_of(Rule::kEmbedding, 3.0, 3.0),
@@ -128,7 +156,8 @@ TEST(VerdictWords, TheNearestLimitIsTheOneOfWhichTheLeastIsLeft) {
   sim::DrivePrediction drive = drive_at(0.0, 0.0);
   EXPECT_EQ(nearest_limit_words(drive), "");
   const auto with = [](Rule rule, double limit, sim::DrawnSpread value, std::size_t station) {
-    sim::RuleRisk risk{.rule = rule, .limit = limit};
+    sim::RuleRisk risk = risk_of(rule);
+    risk.limit = limit;
     risk.value = value;
     risk.station = station;
     return risk;
