@@ -33,6 +33,13 @@ TEST_P(JobStores, WhatARunningJobHasFoundIsToldUntilItIsClaimedAnew) {
   EXPECT_EQ(get(id).best_so_far, "{\"cost\":3}");
 }
 
+TEST_P(JobStores, WhoTakesEveryKindIsWaitedForBehindAll) {
+  accept("prediction");
+  const std::string id = accept("plan");
+  EXPECT_EQ(store_->place_in_queue(id, {}).value()->ahead, 1);
+  EXPECT_EQ(store_->place_in_queue(id, {"plan"}).value()->ahead, 0);
+}
+
 TEST_P(JobStores, AnIdThatIsTakenIsRefused) {
   const std::string id = accept();
   const auto again = store_->append({id, "plan", "{}"}, now_, {kMany});
