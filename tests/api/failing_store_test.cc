@@ -115,7 +115,7 @@ TEST(OpenJobStore, SecretsOfAnAddressGoIntoTheEnvironmentAlone) {
   EXPECT_EQ(faulty.error().faults.front().message.find("secret"), std::string::npos);
 }
 
-TEST(OpenJobStore, AnAddressOpensADatabase) {
+TEST(OpenJobStore, AnAddressOpensAPostgresDatabase) {
   const auto schema = testing::PostgresSchema::make();
   if (!schema) GTEST_SKIP() << testing::kNoPostgres;
   const auto store = open_job_store(schema->address());

@@ -16,7 +16,7 @@ export SOURCE_DATE_EPOCH
 PACKAGES="$folder/first" BUILD="$build" sh "$source/deploy/package.sh"
 
 umask 077
-copy="$folder/a copy of the tree"
+copy="$folder/copy"
 mkdir "$copy"
 cd "$source"
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -d -t "$copy"
