@@ -1,10 +1,13 @@
 #!/bin/sh
 # Says which branches of what judges a drive and of the jobs' store no test takes: a table by file, and each line with a branch that is
 # missed. Branches that only an exception takes are left out.
-#   sh tests/coverage.sh [BUILD_FOLDER]     needs what tests/run.sh installs and the package gcovr
+#   sh tests/coverage.sh [BUILD_FOLDER]     needs what tests/run.sh installs; gcovr is installed here
 set -eu
 cd "$(dirname "$0")/.."
-command -v gcovr >/dev/null || { echo "tests/coverage.sh: install gcovr first: apt-get install gcovr" >&2; exit 1; }
+command -v gcovr >/dev/null || {
+  [ "$(id -u)" = 0 ] || { echo "tests/coverage.sh: gcovr is missing, and only root can install it" >&2; exit 1; }
+  apt-get install -q -y --no-install-recommends gcovr
+}
 build=${1:-build/coverage}
 [ -n "${1:-}" ] || cmake --preset coverage >/dev/null
 cmake --build "$build" --target sim_tests planner_tests api_tests
