@@ -10,7 +10,7 @@ packages="g++ cmake ninja-build pkg-config ccache
   libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libpq-dev libssl-dev zlib1g-dev libcli11-dev libtoml11-dev
   prometheus-cpp-dev libspdlog-dev libarchive-dev"
 if [ "${1:-}" = "--test" ]; then
-  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema nginx-light openssl chromium gdal-bin
+  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema python3-debian python3-license-expression nginx-light openssl chromium gdal-bin
     postgresql"
   # Another Node with an npm of its own does as well, and Debian's npm conflicts with it.
   command -v npm >/dev/null || packages="$packages nodejs npm"

@@ -32,12 +32,13 @@ bool JobProgress::cancelled() const {
   heard_ = now.time_since_epoch();
   if (cancelled_ || place_.stopping || is_over_time()) return true;
   const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return cancelled_;  // somebody else is just writing
   // Work that asks but has nothing to report is alive too, and may be wanted no more.
   constexpr int kRenewalsPerLease = 3;
   const auto renewal = std::min(place_.renewal, place_.lease / kRenewalsPerLease);
   constexpr milliseconds kBetweenLooks{20};  // others' jobs ring too
   const bool rung = rings_ != place_.rings && now - written_ >= kBetweenLooks;
-  if (lock && (rung || now - written_ >= renewal)) write();
+  if (rung || now - written_ >= renewal) write();
   return cancelled_;
 }
 

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <future>
 #include <mutex>
 #include <new>
+#include <string>
+#include <thread>
 
 #include "api/jobs/open_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
@@ -54,6 +57,27 @@ TEST(JobRunner, RunsAJobToItsAnswer) {
   EXPECT_EQ(job->state, JobState::kAccepted);
   EXPECT_EQ(runner.wait(job->id, seconds(5)).value()->state, JobState::kSuccessful);
   EXPECT_EQ(runner.store().outcome(job->id).value(), "plan: {}");
+}
+
+// The thread sanitizer (preset tsan) sees what is read beside the lock.
+TEST(JobRunner, WorkOfManyThreadsReportsAndAsks) {
+  JobRunner runner(open_job_store("").value(),
+                   [](const std::string&, const std::string&, Progress& progress) {
+                     std::atomic<bool> done{false};
+                     const auto ask = [&] {
+                       while (!done) static_cast<void>(progress.cancelled());
+                     };
+                     std::thread one(ask), other(ask);
+                     for (int k = 0; k < 200; ++k) progress.report("stage " + std::to_string(k), k / 200.0);
+                     done = true;
+                     one.join();
+                     other.join();
+                     return Result<std::string>("answer");
+                   });
+  ASSERT_TRUE(runner.start());
+  const std::string id = runner.submit("plan", "{}")->id;
+  ASSERT_EQ(runner.wait(id, seconds(30)).value()->state, JobState::kSuccessful);
+  EXPECT_EQ(runner.store().get(id).value()->stage, "stage 199");
 }
 
 TEST(JobRunner, AFailureAndABrokenPromiseAreProblems) {

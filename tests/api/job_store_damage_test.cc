@@ -76,6 +76,52 @@ TEST(JobStoreDamage, AnAlteredAnswerIsAnErrorAndAnAlteredRequestIsNotRun) {
   EXPECT_FALSE(store->claim("a", {}, 5, 6).value()->damaged);
 }
 
+TEST(JobStoreDamage, AnAlteredRequestAndAnAlteredPageAreErrors) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const auto store = open_sqlite_job_store(path).value();
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, 1, {100})->id;
+  const Lease lease = store->claim("a", kPlans, 2, 3).value()->lease();
+  ASSERT_TRUE(store->finish(lease, JobState::kSuccessful, {"answer", {"page"}}, 4).value());
+  EXPECT_EQ(store->request(id).value(), "{}");
+  EXPECT_EQ(store->series(id, 1).value()->bytes, "page");
+  SqliteConnection connection(path, CommitKind::kQuick);
+  connection.execute("UPDATE jobs SET request = '{ }'");
+  connection.execute("UPDATE series SET bytes = 'other'");
+  EXPECT_EQ(store->request(id).error().code, ErrorCode::kDamagedStore);
+  EXPECT_EQ(store->series(id, 1).error().code, ErrorCode::kDamagedStore);
+}
+
+TEST(JobStoreDamage, ARowOfAnUnknownStateHidesItselfAlone) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const auto store = open_sqlite_job_store(path).value();
+  const std::string bad = store->append({new_job_id(), "plan", "{}"}, 1, {100})->id;
+  const std::string good = store->append({new_job_id(), "plan", "{}"}, 2, {100})->id;
+  SqliteConnection(path, CommitKind::kQuick)
+      .prepare("UPDATE jobs SET state = 'lost' WHERE id = ?")
+      .bind(bad)
+      .step();
+  ASSERT_EQ(store->list(10).value().size(), 1U);
+  EXPECT_EQ(store->list(10).value().front().id, good);
+  EXPECT_EQ(store->counts().value().size(), 1U);
+  EXPECT_EQ(store->get(bad).error().code, ErrorCode::kDamagedStore);
+}
+
+TEST(JobStoreDamage, APartWhoseJobIsGoneIsNoWork) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const auto store = open_sqlite_job_store(path).value();
+  ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, 1, {100}));
+  ASSERT_TRUE(store->split(store->claim("a", kPlans, 2, 3).value()->lease(), {"{}", "{}"}, 2).value());
+  SqliteConnection connection(path, CommitKind::kQuick);
+  connection.execute("DROP TRIGGER parts_go");
+  connection.execute("DELETE FROM jobs WHERE whole IS NULL");
+  const auto claimed = store->claim_some("a", kPlans, 3, {3, 4}, 2);
+  ASSERT_FALSE(claimed);
+  EXPECT_EQ(claimed.error().code, ErrorCode::kDamagedStore);
+}
+
 TEST(JobStoreDamage, NoRandomDamageChangesAnAnswer) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "jobs.sqlite";
@@ -200,6 +246,24 @@ TEST(JobStoreDamage, AStoreOfVersionThreeIsCopiedAndGoesOn) {
   EXPECT_TRUE(store->split(whole, {"{}", "{}"}, 6).value());
   EXPECT_EQ(store->parts(whole.id).value().size(), 2U);
   EXPECT_TRUE(fs::exists(path.string() + ".version-3"));
+}
+
+TEST(JobStoreDamage, AnEarlierCopyOfAStoreIsKeptBesideTheNewOne) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite", copy = path.string() + ".version-3";
+  const std::vector<std::string> ids = fill(path);
+  {
+    SqliteConnection connection(path, CommitKind::kQuick);
+    drop_parts(connection);
+    connection.execute("PRAGMA user_version = 3");
+  }
+  write_file(copy, "an earlier copy");
+  ASSERT_TRUE(brought_up(path, ids));
+  EXPECT_EQ(file_bytes(copy), "an earlier copy");
+  int copies = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    if (entry.path().string().starts_with(copy.string())) ++copies;
+  EXPECT_EQ(copies, 2);
 }
 
 TEST(JobStoreDamage, AStoreOfVersionTwoIsCopiedAndGoesOn) {

@@ -18,6 +18,45 @@ using testing::kMany;
 
 class JobStores : public testing::JobStoreTest {};
 
+TEST_P(JobStores, WhatARunningJobHasFoundIsToldUntilItIsClaimedAnew) {
+  const std::string id = accept();
+  const Lease lease = claim().lease();
+  EXPECT_TRUE(store_->report(lease, "s", 0.5, now_ + 1, "{\"cost\":1}").value());
+  EXPECT_EQ(get(id).best_so_far, "{\"cost\":1}");
+  EXPECT_TRUE(store_->report(lease, "s", 0.6, now_ + 1, "").value());
+  EXPECT_EQ(get(id).best_so_far, "{\"cost\":1}") << "until it finds another";
+  now_ += 10;
+  const Lease anew = claim().lease();
+  EXPECT_FALSE(store_->report(lease, "s", 0.7, now_ + 1, "{\"cost\":2}").value());
+  EXPECT_EQ(get(id).best_so_far, "") << "of the attempt before";
+  EXPECT_TRUE(store_->report(anew, "s", 0.1, now_ + 1, "{\"cost\":3}").value());
+  EXPECT_EQ(get(id).best_so_far, "{\"cost\":3}");
+}
+
+TEST_P(JobStores, WhoTakesEveryKindIsWaitedForBehindAll) {
+  accept("prediction");
+  const std::string id = accept("plan");
+  EXPECT_EQ(store_->place_in_queue(id, {}).value()->ahead, 1);
+  EXPECT_EQ(store_->place_in_queue(id, {"plan"}).value()->ahead, 0);
+}
+
+TEST_P(JobStores, AnIdThatIsTakenIsRefused) {
+  const std::string id = accept();
+  const auto again = store_->append({id, "plan", "{}"}, now_, {kMany});
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, ErrorCode::kStorage);
+  EXPECT_EQ(store_->list(kMany).value().size(), 1U);
+}
+
+TEST_P(JobStores, WhoHoldsNoLeaseDividesNothing) {
+  const std::string id = accept();
+  Lease lease = claim().lease();
+  ++lease.attempt;
+  EXPECT_FALSE(store_->split(lease, {"a", "b"}, now_).value());
+  EXPECT_EQ(store_->give_back({lease}).value(), 0);
+  EXPECT_TRUE(store_->parts(id).value().empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::ValuesIn(kJobStores),
                          [](const auto& instance) { return instance.param; });
 

@@ -6,7 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "api/jobs/postgres_connection.h"
 #include "postgres_schema.h"
@@ -58,6 +60,7 @@ TEST_F(PostgresJobStoreTest, ARowOfAnUnknownStateHidesItselfAlone) {
   ASSERT_TRUE(listed) << listed.error().detail;
   ASSERT_EQ(listed->size(), 1U);
   EXPECT_EQ(listed->front().id, good->id);
+  EXPECT_EQ(store_->counts().value().size(), 1U);
   const auto one = store_->get(bad->id);
   ASSERT_FALSE(one);
   EXPECT_EQ(one.error().code, ErrorCode::kDamagedStore);
@@ -80,6 +83,40 @@ TEST_F(PostgresJobStoreTest, TablesOfANewerProgramAreRefusedWithWhatToDo) {
   EXPECT_NE(refused.error().detail.find("newer program (version 77"), std::string::npos)
       << refused.error().detail;
   EXPECT_NE(refused.error().detail.find("--jobs"), std::string::npos);
+}
+
+TEST_F(PostgresJobStoreTest, TablesThatDoNotSayTheirVersionAreRefused) {
+  schema_->run("DELETE FROM slipway_schema");
+  const auto refused = open_postgres_job_store(schema_->address());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().detail.find("--jobs"), std::string::npos) << refused.error().detail;
+}
+
+TEST_F(PostgresJobStoreTest, WhatTheServerSaysOfItsDiskIsToldAsThat) {
+  schema_->run(
+      "CREATE FUNCTION refuse() RETURNS trigger LANGUAGE plpgsql AS "
+      "$$ BEGIN RAISE EXCEPTION 'refused' USING ERRCODE = NEW.kind; END $$");
+  schema_->run("CREATE TRIGGER refuses BEFORE INSERT ON slipway_jobs FOR EACH ROW EXECUTE FUNCTION refuse()");
+  for (const auto& [sqlstate, code] :
+       {std::pair{"53100", ErrorCode::kStorageFull}, std::pair{"XX001", ErrorCode::kDamagedStore},
+        std::pair{"XX002", ErrorCode::kDamagedStore}, std::pair{"22000", ErrorCode::kStorage}}) {
+    const auto refused = store_->append({new_job_id(), sqlstate, "{}"}, 1, {});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, code) << sqlstate;
+  }
+}
+
+TEST_F(PostgresJobStoreTest, NamesOfKindsMayHaveAnyCharacter) {
+  const std::string kind = R"(a "kind", {of} \its\ own)";
+  ASSERT_TRUE(store_->append({new_job_id(), kind, "{}"}, 1, {}));
+  EXPECT_FALSE(store_->claim("w", {"plan"}, 1000, 2000).value());
+  EXPECT_EQ(store_->claim("w", {"plan", kind}, 1000, 2000).value()->job.kind, kind);
+}
+
+TEST_F(PostgresJobStoreTest, AColumnThatIsNoBigintIsNotReadAsOne) {
+  PostgresConnection connection(PostgresAddress(schema_->address()), CommitKind::kQuick);
+  EXPECT_EQ(connection.run("SELECT 7::bigint").number(0, 0), 7);
+  EXPECT_THROW(connection.run("SELECT 7::int").number(0, 0), PostgresFailure);
 }
 
 TEST_F(PostgresJobStoreTest, AlteredBytesAreNeverServed) {
@@ -183,6 +220,10 @@ TEST(PostgresAddress, IsShownWithoutItsPassword) {
             "postgresql://me@a/db?sslmode=require");
   EXPECT_EQ(shown("postgresql:///db?service=team"), "postgresql:///db?service=team");
   EXPECT_EQ(PostgresAddress("postgresql://me:s%40cret@a/db").password(), "s@cret");
+}
+
+TEST(PostgresAddress, AKeysPasswordBelongsIntoAServiceFile) {
+  EXPECT_THROW(PostgresAddress("postgresql://me@a/db?sslpassword=secret"), PostgresFailure);
 }
 
 TEST(PostgresAddress, AFaultyOneIsRefusedWithoutRepeatingIt) {

@@ -90,5 +90,34 @@ TEST(SqliteConnection, WhatIsNoStatementIsRefusedEachTime) {
   for (int k = 0; k < 2; ++k) EXPECT_THROW(numbers.connection.prepare("SELECT nonsense"), SqliteFailure);
 }
 
+std::string failure_of(SqliteConnection& connection, const char* sql) {
+  try {
+    connection.execute(sql);
+  } catch (const SqliteFailure& failure) {
+    return failure.what();
+  }
+  return "none";
+}
+
+TEST(SqliteConnection, AFailureSaysWhichFileAndWhatToDo) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "numbers.sqlite";
+  Numbers one(path), other(path);
+  const std::string of = "SQLite of " + path.string() + ": ";
+  one.connection.execute("BEGIN IMMEDIATE");
+  other.connection.execute("PRAGMA busy_timeout = 0");
+  EXPECT_EQ(failure_of(other.connection, "BEGIN IMMEDIATE"),
+            of + "database is locked; another process holds it: try again, or stop that one");
+  one.connection.execute("PRAGMA query_only = 1");
+  EXPECT_EQ(
+      failure_of(one.connection, "INSERT INTO numbers VALUES (1)"),
+      of +
+          "attempt to write a readonly database; let the service read and write the file and its folder, and "
+          "look whether their disk is sound");
+  EXPECT_EQ(failure_of(one.connection, "SELECT nonsense"), of + "no such column: nonsense");
+  SqliteConnection in_memory("", CommitKind::kQuick);
+  EXPECT_EQ(failure_of(in_memory, "SELECT nonsense"), "SQLite: no such column: nonsense");
+}
+
 }  // namespace
 }  // namespace slipway::api

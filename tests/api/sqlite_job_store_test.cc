@@ -145,6 +145,7 @@ TEST(JobId, HoldsAHundredAndTwentyEightBits) {
   }
   EXPECT_EQ(ids.size(), 1000U);
   EXPECT_FALSE(is_job_id("../../../etc/passwd"));
+  for (const char c : {'/', ':', '`', 'g', 'A'}) EXPECT_FALSE(is_job_id(std::string(32, c))) << c;
 }
 
 }  // namespace

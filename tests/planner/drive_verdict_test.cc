@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
+#include <string>
+#include <utility>
 
 #include "core/angle.h"
 #include "core/progress.h"
@@ -97,6 +100,124 @@ TEST(DriveVerdict, SideSlipTakesTheBodyIntoAKeepOutBesideThePath) {
   EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kNoGo);
   drive.stations[0].aside_m = drive.stations[0].aside_m_p05 = 0.4;
   EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kGo) << "to the other side";
+}
+
+TEST(DriveVerdict, TheFirstSideSlipThatIsCertainDecidesAndOneThatIsNotIsToldOnce) {
+  PlanProblem problem = problem_on(20, 20, 1.0, 1.0, [](double, double) { return 0.0; });
+  const double edge = 10.0 - 0.5 * problem.rover->body_width_m - 0.3;
+  problem.keep_out = {{{5.0, edge}, {5.0, edge - 1.0}, {15.0, edge - 1.0}, {15.0, edge}}};
+  sim::DrivePrediction drive = prediction_with({kNever, kNever, kNever});
+  sim::StationPrediction at;
+  at.station.pose = {10.0, 10.0, 0.0};
+  at.aside_m_p05 = -0.4;
+  drive.stations = {at, at};
+  EXPECT_EQ(judge_drive(problem, drive).reasons.size(), 1u);
+  drive.stations[1].aside_m = -0.4;
+  EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kNoGo);
+  for (sim::StationPrediction& station : drive.stations) {  // backwards along the same way: the other side
+    station.station.pose.yaw_rad = std::numbers::pi;
+    station.station.backwards = true;
+  }
+  EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kNoGo);
+  drive.stations[0].station.backwards = drive.stations[1].station.backwards = false;
+  EXPECT_EQ(judge_drive(problem, drive).verdict, Verdict::kGo);
+}
+
+TEST(DriveVerdict, TheBodyKeepsTheAreasAlongItsMotions) {
+  PlanProblem problem = problem_on(20, 20, 1.0, 1.0, [](double, double) { return 0.0; });
+  problem.keep_out = {{{10.0, 8.0}, {12.0, 8.0}, {12.0, 12.0}, {10.0, 12.0}}};
+  const sim::DrivePrediction drive = prediction_with({kNever, kNever, kNever});
+  const std::vector<Motion> through{straight({4.0, 10.0, 0.0}, 15.0, 10.0)};
+  const std::vector<Motion> past{straight({4.0, 4.0, 0.0}, 15.0, 4.0)};
+  const DriveVerdict verdict = judge_drive(problem, drive, {.motions = &through});
+  EXPECT_EQ(verdict.verdict, Verdict::kNoGo);
+  EXPECT_TRUE(verdict.reasons.front().starts_with("the rover's body would enter a keep-out at (9."))
+      << verdict.reasons.front();
+  EXPECT_EQ(judge_drive(problem, drive, {.motions = &past}).verdict, Verdict::kGo);
+  std::swap(problem.keep_in, problem.keep_out);
+  const DriveVerdict left = judge_drive(problem, drive, {.motions = &past});
+  EXPECT_EQ(left.verdict, Verdict::kNoGo);
+  EXPECT_TRUE(left.reasons.front().starts_with("the rover's body would leave a keep-in at (4.00, 4.00)"))
+      << left.reasons.front();
+}
+
+TEST(DriveVerdict, ADriveInMotionRefutesTheRouteOrLeavesItOpen) {
+  const sim::DrivePrediction drive = prediction_with({kNever, kNever, kNever});
+  const auto judged_with = [&](const DynamicVerification& dynamic) {
+    const DriveVerdict verdict = judge_drive(PlanProblem{}, drive, {.dynamic = &dynamic});
+    return std::pair{verdict.verdict, verdict.reasons.front()};
+  };
+  DynamicVerification dynamic;
+  dynamic.reason = "the wheels spin";
+  dynamic.distance_m = 4.0;
+  EXPECT_EQ(judged_with(dynamic),
+            std::pair(Verdict::kUnknown, std::string("no answer from the drive in motion: the wheels spin")));
+  dynamic.left_the_route = true;
+  EXPECT_EQ(judged_with(dynamic),
+            std::pair(Verdict::kUnknown,
+                      std::string("neither confirmed nor refuted by the drive in motion: the wheels spin")));
+  dynamic.broken_limits = {{sim::Rule::kTilt, 0.5, 0.4, 3.0, -1}};
+  const std::pair broken(Verdict::kNoGo,
+                         std::string("driven in motion: tilt 28.6 deg at 3.0 m, limit 22.92 deg"));
+  EXPECT_EQ(judged_with(dynamic), broken) << "whether it came to an end or not";
+  dynamic.end = sim::DriveEnd::kFinished;
+  EXPECT_EQ(judged_with(dynamic), broken);
+  dynamic.broken_limits = {};
+  EXPECT_EQ(judged_with(dynamic).first, Verdict::kGo);
+  dynamic.left_the_route = false;
+  dynamic.end = sim::DriveEnd::kImmobilised;
+  EXPECT_EQ(
+      judged_with(dynamic),
+      std::pair(Verdict::kNoGo, std::string("driven in motion: immobilised at 4.0 m, the wheels spin")));
+}
+
+sim::RuleRisk rule_risk(sim::Rule rule, double trips, double halts) {
+  sim::RuleRisk risk;
+  risk.rule = rule;
+  risk.trips.share = trips;
+  risk.halts = halts;
+  risk.from_m = 2.0;
+  risk.to_m = 8.0;
+  return risk;
+}
+
+TEST(DriveVerdict, TheReasonOfAProbabilityIsTheRuleBehindIt) {
+  sim::DrivePrediction drive = prediction_with({{0.6, 0.51, 0.7}, kNever, kNever});
+  EXPECT_EQ(judge_drive(PlanProblem{}, drive).reasons.front().find(';'), std::string::npos)
+      << "no rule is known";
+  drive.outcomes.rules = {rule_risk(sim::Rule::kStance, 0.6, 0.6),
+                          rule_risk(sim::Rule::kEmbedding, 0.0, 0.0)};
+  EXPECT_TRUE(
+      judge_drive(PlanProblem{}, drive)
+          .reasons.front()
+          .ends_with(
+              "; mostly the wheels find no ground to stand on from 2.0 to 8.0 m, because of rough ground"));
+  static_cast<sim::OutcomeShares&>(drive.outcomes) = drive.outcomes.on_known = {kNever, kNever, kOften};
+  EXPECT_EQ(judge_drive(PlanProblem{}, drive).reasons.front().find(';'), std::string::npos)
+      << "it trips in no draw";
+  drive.outcomes.rules[1] = rule_risk(sim::Rule::kEmbedding, 0.2, 0.0);
+  EXPECT_TRUE(judge_drive(PlanProblem{}, drive)
+                  .reasons.front()
+                  .ends_with("; the wheels dig in from 2.0 to 8.0 m, because of the soil"));
+  drive.outcomes.rules.pop_back();
+  EXPECT_EQ(judge_drive(PlanProblem{}, drive).reasons.front().find(';'), std::string::npos);
+  drive.outcomes.unsolved = 0.03;
+  EXPECT_TRUE(judge_drive(PlanProblem{}, drive)
+                  .reasons.back()
+                  .starts_with("in 3.0 % of the draws the solver gave up"));
+}
+
+TEST(DriveVerdict, WithoutDrawsTheMeanSoilsDecide) {
+  const DriveVerdict verdict = judge_drive(PlanProblem{}, sim::DrivePrediction{});
+  EXPECT_EQ(verdict.verdict, Verdict::kGo);
+  EXPECT_EQ(verdict.reasons, std::vector<std::string>{"every limit holds on the mean soils"});
+}
+
+TEST(DriveVerdict, ASegmentAloneIsJudgedByTheBars) {
+  const sim::OutcomeBars bars;
+  EXPECT_EQ(judge_segment(bars, {kNever, kNever, kNever}), Verdict::kGo);
+  EXPECT_EQ(judge_segment(bars, {kNever, kRarely, kNever}), Verdict::kUnknown);
+  EXPECT_EQ(judge_segment(bars, {kNever, kOften, kNever}), Verdict::kNoGo);
 }
 
 sim::SoilDistribution widened(sim::SoilDistribution soil, double relative) {

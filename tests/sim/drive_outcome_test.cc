@@ -190,6 +190,60 @@ TEST(DriveOutcome, TheWayAsideIsThatSinceTheLastStretch) {
   EXPECT_EQ(follower.stops(), 0);
 }
 
+// A drive in segments is a sol's drive each: its time and its energy are counted anew.
+TEST(DriveOutcome, TimeAndEnergyAreThoseOfASegment) {
+  PreparedStation station;
+  station.drive_m = 0.5;
+  station.stance.belly_clearance_m = 0.3;
+  StationState state;
+  state.along_m_s = 0.05;
+  state.electric_power_w = 10.0;
+  state.wheels = PerWheel<WheelState>(kRover.wheels.size());
+  const auto halts = [&](const DriveLimits& limits, double segment_m) {
+    OutcomeFollower follower(kRover, limits, kChecks, segment_m);
+    for (std::size_t k = 0; k < 40; ++k) {
+      station.distance_m = 0.5 * static_cast<double>(k + 1);
+      EXPECT_TRUE(follower.add(station, k, state));
+    }
+    return follower.stops();
+  };
+  const Effort whole = effort_of(station, state);
+  ASSERT_GT(whole.duration_s, 0.0);
+  ASSERT_GT(whole.energy_j, 0.0);
+  DriveLimits hours, energy;
+  hours.max_drive_s = 25.0 * whole.duration_s;
+  energy.max_energy_j = 25.0 * whole.energy_j;
+  for (const DriveLimits& limits : {hours, energy}) {
+    EXPECT_EQ(halts(limits, 0.0), 1) << "forty stations are more than twenty-five";
+    EXPECT_EQ(halts(limits, 10.0), 0) << "of a segment's twenty they are not";
+  }
+}
+
+TEST(RuleCatalogue, PeaksBeyondTheirLimitsAreBroken) {
+  DriveExtremes extremes;
+  extremes.max_slip_ratio = {0.4, 3.0};
+  extremes.max_tilt_rad = {rad_from_deg(24.0), 4.0};
+  extremes.max_sinkage_m = {0.09, 5.0};
+  const std::vector<BrokenLimit> broken = broken_limits(extremes, kLimits);
+  ASSERT_EQ(broken.size(), 2U);
+  EXPECT_EQ(describe(broken[0]), "slip 0.4 at 3.0 m, limit 0.4") << "slip is over at its limit";
+  EXPECT_EQ(describe(broken[1]), "sinkage 0.09 m at 5.0 m, limit 0.08 m");
+}
+
+TEST(RuleCatalogue, TheSuspensionIsItsLargestAngle) {
+  DriveLimits limits;
+  limits.max_suspension_rad = 0.2;
+  const StationRules rules(kRover, limits);
+  Stance stance;
+  stance.belly_clearance_m = 1.0;
+  StationState state;
+  state.wheels = PerWheel<WheelState>(kRover.wheels.size());
+  EXPECT_FALSE(rules.broken_by(stance, state, false));
+  stance.bogie_rad[1] = -0.3;
+  EXPECT_TRUE(rules.broken_by(stance, state, false));
+  EXPECT_FALSE(rules.broken_by(stance, state, true)) << "the ground's shape, whatever the soil";
+}
+
 // What an operator may change never makes a drive worse by being stricter on the ground, or less strict on
 // the rover; and no beginning of a drive is worse than the whole.
 class DriveOutcomeProperties : public testing::TestWithParam<std::uint64_t> {
