@@ -11,7 +11,7 @@
 #include "api/sunlight.h"
 #include "core/angle.h"
 #include "core/utc.h"
-#include "dem/horizon.h"
+#include "dem/horizon/horizon.h"
 #include "sky/sky.h"
 
 namespace slipway::api {
@@ -56,6 +56,7 @@ void write_sky_moment(json::Writer& w, const SkyMoment& moment) {
 Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::int64_t from_ms,
                           std::optional<std::int64_t> to_ms) {
   if (auto why = why_no_sky(site)) return fail(ErrorCode::kInvalidRequest, *std::move(why));
+  if (auto why = sky::why_not_known(from_ms)) return fail(ErrorCode::kInvalidRequest, *std::move(why));
   const dem::GridGeometry& geometry = site.info().geometry;
   if (!geometry.extent().contains(x_m, y_m))
     return fail(ErrorCode::kOffMap, fmt::format("({:g}, {:g}) lies off the map", x_m, y_m));

@@ -39,9 +39,10 @@ std::vector<PlaceOnWay> checks_of(const sim::DrivePrediction& drive) {
 
 std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
   if (!(drive.worst_place.value > 0.0)) return std::nullopt;
-  return place_at(drive, drive.worst_place.distance_m,
-                  fmt::format("{:.1f} % of the draws break a limit or are immobilised here, the most on the way",
-                              100.0 * drive.worst_place.value));
+  return place_at(
+      drive, drive.worst_place.distance_m,
+      fmt::format("{:.1f} % of the draws break a limit or are immobilised here, the most on the way",
+                  100.0 * drive.worst_place.value));
 }
 
 // Where a drive that leaves at the best moment, or the nearest, is at the slow pace when its time is over.

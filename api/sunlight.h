@@ -9,7 +9,7 @@
 #include "api/files/terrain_site.h"
 #include "core/result.h"
 #include "dem/grid_geometry.h"
-#include "dem/horizon_sweep.h"
+#include "dem/horizon/horizon_sweep.h"
 #include "dem/write/rgba_image.h"
 #include "sky/bearing.h"
 

@@ -17,8 +17,8 @@
 
 #include "core/random.h"
 #include "dem/elevation_source.h"
-#include "dem/horizon.h"
-#include "dem/horizon_sweep.h"
+#include "dem/horizon/horizon.h"
+#include "dem/horizon/horizon_sweep.h"
 #include "dem/synthetic_terrain.h"
 
 namespace slipway::dem {

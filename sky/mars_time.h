@@ -28,8 +28,8 @@ struct MarsTime {
 };
 MarsTime mars_time(std::int64_t utc_ms, double east_longitude_rad);
 
-// Why sun and Earth are not computed at a time; nothing from 1800 to 2150. Standish's elements are for 1800 to
-// 2050, and a century later the sun is off by 0.03 deg.
+// Why sun and Earth are not computed at a time; nothing from 1800 to 2150. Standish's elements are for 1800
+// to 2050, and a century later the sun is off by 0.03 deg.
 std::optional<std::string> why_not_known(std::int64_t utc_ms);
 
 // The sun over a place, by its east longitude and planetocentric latitude. Elevations are over the level of

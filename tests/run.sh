@@ -26,7 +26,8 @@ stage "install packages" sh deploy/install.sh --test ||
 stage "configure" cmake --preset check || fail "cmake could not configure; the first message above says what is missing"
 stage "build" cmake --build --preset check || fail "the build broke; the first error above says where"
 tested=yes
-stage "test" ctest --preset check --progress -j "$(nproc)" "$@" ||
+# One more than processors: tests that wait for a service or a browser leave theirs idle.
+stage "test" ctest --preset check --progress -j "$(($(nproc) + 1))" "$@" ||
   fail "a test failed; run it alone with: ctest --preset check -R NAME"
 case "${SANITIZE:-}" in
   yes) sanitized=sanitized_tests readers_alone=ON ;;

@@ -70,7 +70,8 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
     };
     if (!departure.table.empty() && object.faults().size() == before) {
       const sky::SkySample& last = departure.table.back();
-      if (are_opposite(last.sun, sample.sun) || (last.earth && sample.earth && are_opposite(*last.earth, *sample.earth)))
+      if (are_opposite(last.sun, sample.sun) ||
+          (last.earth && sample.earth && are_opposite(*last.earth, *sample.earth)))
         moment.fault("at", "a direction is opposite to that of the moment before: give moments between them");
     }
     departure.table.push_back(sample);
@@ -83,9 +84,10 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
   if (!has_times) return;
   if (departure.from_ms < departure.table.front().utc_ms || departure.to_ms > departure.table.back().utc_ms)
     object.fault(
-        "sky", fmt::format("must cover the departures: its moments run from {} to {}, the departures from {} to {}",
-                           utc_text(departure.table.front().utc_ms), utc_text(departure.table.back().utc_ms),
-                           utc_text(departure.from_ms), utc_text(departure.to_ms)));
+        "sky",
+        fmt::format("must cover the departures: its moments run from {} to {}, the departures from {} to {}",
+                    utc_text(departure.table.front().utc_ms), utc_text(departure.table.back().utc_ms),
+                    utc_text(departure.from_ms), utc_text(departure.to_ms)));
 }
 
 void write_time(Writer& w, std::string_view key, std::int64_t ms) {

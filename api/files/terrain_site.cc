@@ -169,7 +169,8 @@ Result<std::string> TerrainSite::version_of_files() const {
     const std::uintmax_t size = std::filesystem::file_size(folder_ / name, error);
     if (error) return fail(ErrorCode::kUnreadableData, fmt::format("{}: {}", name, error.message()));
     hash.add(fmt::format("{} {}\n", size, name));
-    const auto bytes = size > kReadThrough ? spread_pieces(folder_ / name, size) : read_data_file(folder_ / name);
+    const auto bytes =
+        size > kReadThrough ? spread_pieces(folder_ / name, size) : read_data_file(folder_ / name);
     if (!bytes) return fail(bytes.error());
     hash.add(*bytes);
   }

@@ -92,10 +92,10 @@ void add_day(ReportPage& page, const JsonValue& departures) {
                   number(drive, "charge_low_percent"), number(drive, "gained_wh"), number(drive, "used_wh"),
                   number(drive, "spilled_wh")));
   if (has(departures, "halt"))
-    page.paragraph(fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
-                               "day. The commands hold no wait; give it between them.",
-                               number(at(departures, "halt"), "hours"),
-                               number(at(departures, "halt"), "at_m")));
+    page.paragraph(
+        fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
+                    "day. The commands hold no wait; give it between them.",
+                    number(at(departures, "halt"), "hours"), number(at(departures, "halt"), "at_m")));
   page.picture(
       {"day", day_charts(departures, drive)},
       "Left and middle: along the way from the departure above. Right: every departure that was tried");
@@ -157,10 +157,11 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
       at(at(at(at(plan, "routes"), "features").elements.front(), "properties"), "decision");
   add_advice(page, decision);
   const long minutes = std::lround(number(route, "duration_s") / 60.0);
-  page.paragraph(fmt::format("{:.1f} m in {}:{:02d} h of driving with {:.0f} Wh of the drive motors on the soils as "
-                             "they are believed on average; the day below takes the draws of the ground.",
-                             number(route, "length_m"), minutes / 60, minutes % 60,
-                             has(route, "energy_wh") ? number(route, "energy_wh") : 0.0));
+  page.paragraph(
+      fmt::format("{:.1f} m in {}:{:02d} h of driving with {:.0f} Wh of the drive motors on the soils as "
+                  "they are believed on average; the day below takes the draws of the ground.",
+                  number(route, "length_m"), minutes / 60, minutes % 60,
+                  has(route, "energy_wh") ? number(route, "energy_wh") : 0.0));
   json::Writer w;
   json::write_value(w, plan);
   auto map = draw_route_map(catalogue, w.take());

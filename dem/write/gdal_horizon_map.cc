@@ -62,13 +62,14 @@ Result<void> write(const std::filesystem::path& out, const std::filesystem::path
   plain->SetMetadataItem("EYE_M", fmt::format("{:g}", eye_m).c_str());
   for (int band = 1; band <= directions; ++band) {
     GDALRasterBand& of = *plain->GetRasterBand(band);
-    of.SetDescription(fmt::format("horizon {:g} deg clockwise of the map's north", 360.0 * (band - 1) / directions).c_str());
+    of.SetDescription(
+        fmt::format("horizon {:g} deg clockwise of the map's north", 360.0 * (band - 1) / directions)
+            .c_str());
     of.SetNoDataValue(kNoData);
     of.SetScale(kScale_deg);
     of.SetUnitType("deg");
   }
-  if (auto filled = fill(*plain, ground, eyes, directions, threads, progress); !filled)
-    return filled;
+  if (auto filled = fill(*plain, ground, eyes, directions, threads, progress); !filled) return filled;
   plain->FlushCache();
   CPLStringList options;
   options.AddNameValue("LEVEL", "1");

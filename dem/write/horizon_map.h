@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "dem/grid_geometry.h"
-#include "dem/horizon_sweep.h"
+#include "dem/horizon/horizon_sweep.h"
 
 namespace slipway::dem {
 

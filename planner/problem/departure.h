@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "dem/horizon.h"
+#include "dem/horizon/horizon.h"
 #include "planner/problem/verdict.h"
 #include "sky/sky.h"
 

@@ -169,10 +169,10 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (departures.halt) {
-    std::string words =
-        fmt::format("departing at {} the rover must wait for {:.1f} h at {:.1f} m to charge, without which no "
-                    "departure keeps the rules of the day; its commands hold no wait",
-                    utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m);
+    std::string words = fmt::format(
+        "departing at {} the rover must wait for {:.1f} h at {:.1f} m to charge, without which no "
+        "departure keeps the rules of the day; its commands hold no wait",
+        utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m);
     const bool decides = verdict.verdict == Verdict::kGo;
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (!departures.windows.empty()) {

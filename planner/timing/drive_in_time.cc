@@ -116,14 +116,13 @@ double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bea
 // Between the two nearest fine directions.
 double DriveInTime::fine_horizon_rad(const Place& place, double azimuth_rad) const {
   constexpr double kApart_rad = 2.0 * std::numbers::pi / kFineDirections;
-  if (place.fine_rad.empty())
-    place.fine_rad.assign(kFineDirections, std::numeric_limits<float>::quiet_NaN());
+  if (place.fine_rad.empty()) place.fine_rad.assign(kFineDirections, std::numeric_limits<float>::quiet_NaN());
   const double at = std::fmod(azimuth_rad / kApart_rad + kFineDirections, double{kFineDirections});
   const auto looked_at = [&](std::size_t k) {
     float& known = place.fine_rad[k % kFineDirections];
     if (std::isnan(known))
-      known = static_cast<float>(
-          *departure_.horizon->elevation_rad(place.x_m, place.y_m, kEye_m, kApart_rad * static_cast<double>(k)));
+      known = static_cast<float>(*departure_.horizon->elevation_rad(place.x_m, place.y_m, kEye_m,
+                                                                    kApart_rad * static_cast<double>(k)));
     return double{known};
   };
   const auto k = static_cast<std::size_t>(at);

@@ -228,8 +228,8 @@ Attempt with_held_tracks(RoverBalance& balance, const Primary& primary, Vector& 
   return {Outcome::kNotConverged, -1};
 }
 
-// The wheel that the ground would have to hold down even while the rover rests: past its tipping angle no soil
-// that only pushes has a balance.
+// The wheel that the ground would have to hold down even while the rover rests: past its tipping angle no
+// soil that only pushes has a balance.
 std::optional<int> wheel_that_lifts_at_rest(RoverBalance& balance) {
   const RoverBalance::Loads loads = balance.resting_loads_n();
   Eigen::Index lightest = 0;

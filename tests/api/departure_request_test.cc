@@ -85,10 +85,10 @@ TEST(DepartureRequest, TimesMayHaveAZone) {
 }
 
 TEST(DepartureRequest, DirectionsThatNoGreatCircleJoinsAreRefused) {
-  const auto answer = kYard.checked(departing(
-      R"("from":"2026-07-01T02:00:00Z","sky":[)"
-      R"({"at":"2026-07-01T00:00:00Z","sun_azimuth_deg":0,"sun_elevation_deg":-30},)"
-      R"({"at":"2026-07-01T12:00:00Z","sun_azimuth_deg":180,"sun_elevation_deg":30}])"));
+  const auto answer = kYard.checked(
+      departing(R"("from":"2026-07-01T02:00:00Z","sky":[)"
+                R"({"at":"2026-07-01T00:00:00Z","sun_azimuth_deg":0,"sun_elevation_deg":-30},)"
+                R"({"at":"2026-07-01T12:00:00Z","sun_azimuth_deg":180,"sun_elevation_deg":30}])"));
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().faults.front().pointer, "/departure/sky/1/at");
 }
@@ -99,8 +99,8 @@ TEST(MapNorth, IsThatOfThePlaceBesideAPoleToo) {
                                       "lunar_south_pole_synthetic");
   ASSERT_TRUE(site);
   for (const auto& [x, y] : {std::pair{8500.0, 12500.0}, {30.0, 40.0}, {-3.0, 4.0}, {5.0, -2.0}})
-    EXPECT_NEAR(wrapped_rad(map_north_rad(**site, x, y) + std::atan2(x, y)), 0.0,
-                x > 1000.0 ? 1e-4 : 0.25) << x;
+    EXPECT_NEAR(wrapped_rad(map_north_rad(**site, x, y) + std::atan2(x, y)), 0.0, x > 1000.0 ? 1e-4 : 0.25)
+        << x;
 }
 
 TEST(DepartureRequest, EveryFaultHasItsPlace) {

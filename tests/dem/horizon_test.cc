@@ -1,4 +1,4 @@
-#include "dem/horizon.h"
+#include "dem/horizon/horizon.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "dem/horizon_sweep.h"
+#include "dem/horizon/horizon_sweep.h"
 #include "dem/write/horizon_map.h"
 
 namespace slipway::dem {

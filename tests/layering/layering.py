@@ -25,7 +25,7 @@ MAY_SEE = {
 # room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
 # for neighbours that do not see each other. "." is the room itself; a room that is not listed has no folders.
 FOLDERS = {
-    "dem": [".", "import", "write"],
+    "dem": [".", "horizon", "import", "write"],
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
     "planner": ["problem", "search", "timing", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/follow", "diagnosis/decide", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],

@@ -148,8 +148,7 @@ TEST(DriveInTime, LightIsLeftUntilTheSunSetsToASecond) {
   Departure departure = a_day();
   departure.rules.light_left_s = 20.0 * kHour_s;
   const sim::DrivePrediction prediction = two_hours();
-  const TimedDrive drive =
-      DriveInTime(departure, nullptr, prediction, kNoProgress).at(9 * kHour_ms + 17'000);
+  const TimedDrive drive = DriveInTime(departure, nullptr, prediction, kNoProgress).at(9 * kHour_ms + 17'000);
   ASSERT_EQ(drive.rules.size(), 1U);
   // It arrives at 12 h and 17 s at the slow pace.
   EXPECT_NEAR(drive.rules[0].low * kHour_s, 6.0 * kHour_s - 17.0, 2.0);
@@ -162,12 +161,15 @@ TEST(DriveInTime, APostThatIsNarrowHidesALowSun) {
   std::vector<float> heights(60'000, 0.0F);
   // 1.5 deg wide and 5.7 deg high, 100 m away at 92.5 deg.
   for (int row = 153; row < 156; ++row)
-    for (int column = 150; column < 153; ++column) heights[static_cast<std::size_t>(row * 300 + column)] = 11.0F;
+    for (int column = 150; column < 153; ++column)
+      heights[static_cast<std::size_t>(row * 300 + column)] = 11.0F;
   Departure departure = a_day();
   departure.horizon = std::make_shared<dem::Horizon>(
       std::make_shared<const dem::Terrain>(grid, std::move(heights), std::vector<std::uint8_t>(60'000, 1)),
       1e9);
-  const auto at = [](double azimuth_deg) { return sky::Bearing{rad_from_deg(azimuth_deg), rad_from_deg(2.0)}; };
+  const auto at = [](double azimuth_deg) {
+    return sky::Bearing{rad_from_deg(azimuth_deg), rad_from_deg(2.0)};
+  };
   departure.sky = std::make_shared<sky::SkyTable>(
       std::vector<sky::SkySample>{{0, at(90.0), {}, 1.0}, {24 * kHour_ms, at(96.0), {}, 1.0}});
   departure.rules.min_sun_rad = 0.0;

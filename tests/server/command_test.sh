@@ -270,4 +270,19 @@ sed 's/"id": "arc"/"id": "a", "deformed_terrain": true/; s/"name": "level"/"name
 expect 2 "$slipway" campaign "$folder/collide.json" --data "$data" --out "$folder/collide"
 holds 'a-deformed.tif' "$folder/err"
 [ ! -e "$folder/collide" ] || { echo "a folder was made for a table with faults"; exit 1; }
+# The day: a rule is not lost with an empty variable, and each fault is named.
+shipped="$slipway check --path 8142566,-276711 8142566,-276696"
+expect 2 $shipped --depart "" --day min_sun_deg=89
+holds 'FROM..TO' "$folder/err"
+expect 2 $shipped --depart 2016-03-22T09:00:00Z/2016-03-22T14:00:00Z
+holds 'FROM..TO' "$folder/err"
+expect 2 $shipped --depart 9990-03-22T09:00:00Z
+holds 'from 1800 to 2150' "$folder/err"
+expect 2 "$slipway" sky --lonlat 137.4,-4.6 --at ""
+echo '[{' >"$folder/sky.json"
+expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/sky.json"
+holds sky.json "$folder/err"
+# A GO that holds only with a wait says so first.
+expect 0 $shipped --rover mer-class --depart 2016-03-22T01:00:00Z --day charge_percent=0
+holds '^GO: departing at .* must wait' "$folder/out"
 echo "as expected"

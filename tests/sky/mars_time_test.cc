@@ -78,5 +78,12 @@ TEST(MarsEarth, StandsBeforeTheSunAtOpposition) {
   }
 }
 
+TEST(MarsSky, IsNotComputedBeyondItsYears) {
+  EXPECT_FALSE(why_not_known(at("1805-01-01T00:00:00Z")));
+  EXPECT_FALSE(why_not_known(at("2149-12-01T00:00:00Z")));
+  EXPECT_TRUE(why_not_known(at("1700-01-01T00:00:00Z")));
+  EXPECT_TRUE(why_not_known(at("9999-01-01T00:00:00Z")));
+}
+
 }  // namespace
 }  // namespace slipway::sky

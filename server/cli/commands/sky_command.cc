@@ -18,7 +18,7 @@
 #include "core/angle.h"
 #include "core/utc.h"
 #include "dem/body_degrees.h"
-#include "dem/horizon.h"
+#include "dem/horizon/horizon.h"
 #include "dem/write/horizon_map.h"
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"
@@ -154,8 +154,7 @@ Result<std::string> look(const SkyOptions& options) {
       return fail(ErrorCode::kUnwritableFile, options.horizon_map + " exists already");
     TerminalProgress progress;
     const dem::HorizonSweep ground(**terrain, body_radius_m);
-    const dem::Eyes eyes =
-        dem::eyes_over(**terrain, dem::coarser_grid(info.geometry, every), options.eye_m);
+    const dem::Eyes eyes = dem::eyes_over(**terrain, dem::coarser_grid(info.geometry, every), options.eye_m);
     auto written = dem::write_horizon_map(options.horizon_map, {&ground}, eyes, info.crs_wkt, options.eye_m,
                                           options.directions, 0, progress);
     if (!written) return fail(written.error());
@@ -176,7 +175,9 @@ void add_sky_command(CLI::App& app, std::function<int()>& run) {
       command->add_option("--terrain", options->terrain, "the terrain whose place or horizon is asked for");
   add_place(*command, "--place", options->place,
             "x,y in map metres; the middle of the terrain where it is not given");
-  command->add_flag("--horizon", options->horizon, "print the horizon's elevation all around --place, from true north")
+  command
+      ->add_flag("--horizon", options->horizon,
+                 "print the horizon's elevation all around --place, from true north")
       ->needs(terrain);
   CLI::Option* const map =
       command

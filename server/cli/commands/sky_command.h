@@ -15,7 +15,7 @@ namespace slipway::server {
 // slipway sky: time, sun, Earth and the ground's horizon over a place.
 struct SkyOptions {
   std::optional<std::string> at;  // of UTC; without it: now
-  std::string lonlat;  // "137.4,-4.6", east and planetocentric; empty: of the terrain's place
+  std::string lonlat;             // "137.4,-4.6", east and planetocentric; empty: of the terrain's place
   std::string terrain;
   std::optional<PlaceOption> place;  // map metres
   bool horizon = false;              // print it

@@ -94,10 +94,10 @@ Result<void> write_departure(Writer& w, const DriveOptions& drive) {
   for (const std::string& time : {from, to})
     if (!utc_of_text(time))
       return fail(Error{ErrorCode::kInvalidRequest,
-                            fmt::format("--depart {}: \"{}\" is no time; give FROM..TO, such as "
-                                        "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
-                                        *drive.depart, time),
-                            {}});
+                        fmt::format("--depart {}: \"{}\" is no time; give FROM..TO, such as "
+                                    "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
+                                    *drive.depart, time),
+                        {}});
   w.key("departure").begin_object().text("from", from).text("to", to);
   for (const std::string& setting : drive.day) write_setting(w, setting);
   if (!drive.sky.empty()) {

@@ -264,7 +264,8 @@ std::string drive_lines(const JsonValue& document, bool why) {
   if (!why) return out + measured_line(document) + unseen_line(document) + "Say more: --why\n";
   const JsonValue& outcomes = at(document, "outcomes");
   out += "\n" + lines(at(decision, "reasons"), "  - ", 1);
-  out += more_figures({{"given", &figures}}) + rules_table(outcomes) + day_lines(decision) + learnt_lines(document);
+  out += more_figures({{"given", &figures}}) + rules_table(outcomes) + day_lines(decision) +
+         learnt_lines(document);
   out += position_line(document);
   out += fmt::format("{:.0f} sols expected until the drive is through, over {:.0f} draws of the ground\n",
                      std::ceil(number(outcomes, "expected_sols") - 1e-9), number(outcomes, "draws"));

@@ -1,4 +1,4 @@
-#include "dem/horizon_sweep.h"
+#include "dem/horizon/horizon_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -169,8 +169,8 @@ class Lines {
     const double line = q - course_.q_per_p * p - first_j_, share = line - std::floor(line);
     const auto k = static_cast<std::size_t>(std::floor(line));
     const double one = hulls_[k].steepest(eye), other = hulls_[k + 1].steepest(eye);
-    const double far = std::isinf(one) || std::isinf(other) ? std::max(one, other)
-                                                            : (1.0 - share) * one + share * other;
+    const double far =
+        std::isinf(one) || std::isinf(other) ? std::max(one, other) : (1.0 - share) * one + share * other;
     return std::max(best, far + 2.0 * s * per_diameter_);
   }
 
@@ -251,8 +251,8 @@ void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threa
           const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(cells.columns) +
                           static_cast<std::size_t>(cell.column);
           if (std::isnan(eyes.heights_m[at])) continue;
-          tangents[at] = std::max(
-              tangents[at], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[at])));
+          tangents[at] =
+              std::max(tangents[at], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[at])));
         }
       }
     }

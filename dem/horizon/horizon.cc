@@ -1,4 +1,4 @@
-#include "dem/horizon.h"
+#include "dem/horizon/horizon.h"
 
 #include <algorithm>
 #include <cmath>
