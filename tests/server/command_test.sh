@@ -283,6 +283,6 @@ echo '[{' >"$folder/sky.json"
 expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/sky.json"
 holds sky.json "$folder/err"
 # A GO that holds only with a wait says so first.
-expect 0 $shipped --rover mer-class --depart 2016-03-22T01:00:00Z --day charge_percent=0
+expect 0 $shipped --depart 2016-03-22T01:00:00Z --day charge_percent=0
 holds '^GO: departing at .* must wait' "$folder/out"
 echo "as expected"
