@@ -10,7 +10,8 @@ packages="${PACKAGES:-build/packages}"
 # What else could get into the packages: who packs, where, and when. Their time is that of the last commit.
 umask 022
 export LC_ALL=C TZ=UTC
-: "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct)}"
+: "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct || true)}"
+[ -n "$SOURCE_DATE_EPOCH" ] || { echo "package: this is no clone of git: give SOURCE_DATE_EPOCH, in seconds" >&2; exit 1; }
 export SOURCE_DATE_EPOCH
 if [ -z "${BUILD:-}" ]; then
   BUILD=build/release

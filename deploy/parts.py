@@ -52,6 +52,8 @@ class Document:
             package = {"SPDXID": identity, "name": name, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
                        "licenseDeclared": licence}
             self.packages.append({**package, **({"versionInfo": version} if version else {}), **more})
+        elif any(package["SPDXID"] == identity and package.get("versionInfo", version) != version for package in self.packages):
+            sys.exit(f"{name} comes in two versions, one of them {version}: its parts need names of their own")
         self.relations.append({"spdxElementId": of or self.program, "relationshipType": relation, "relatedSpdxElement": identity})
         return identity
 

@@ -159,7 +159,7 @@ MarsTime mars_time(std::int64_t utc_ms, double east_longitude_rad) {
 std::optional<std::string> why_not_known(std::int64_t utc_ms) {
   constexpr double kYear_ms = 365.2425 * 86.4e6;
   const double year = 1970.0 + static_cast<double>(utc_ms) / kYear_ms;
-  if (year >= 1800.0 && year <= 2150.0) return std::nullopt;
+  if (year >= 1800.0 && year < 2151.0) return std::nullopt;
   return fmt::format("sun and Earth over Mars are computed from 1800 to 2150, not for the year {:.0f}",
                      std::floor(year));
 }

@@ -16,7 +16,7 @@ find "$build" -name '*.gcda' -delete
 "$build/tests/planner/planner_tests" --gtest_brief=1 --gtest_filter='DriveVerdict*:VerdictWords*'
 "$build/tests/api/api_tests" --gtest_brief=1 \
   --gtest_filter='Check*:MustNotGo*:DriveOutcomeTable*:*JobStore*:JobId*:SqliteConnection*:*SimulatedStore*:Postgres*:JobRunner*:Artefact*:FailingStore*'
-gcovr --root . --object-directory "$build" --exclude-throw-branches --exclude-unreachable-branches --branches \
+gcovr --root . --object-directory "$build" --exclude-throw-branches --exclude-unreachable-branches --branches --txt \
   --json "$build/branches.json" --filter 'sim/prediction/(rule_catalogue|drive_outcome)\.cc' \
   --filter 'planner/judge/(drive_verdict|verdict_words)\.cc' \
   --filter 'api/jobs/(artefact_job_store|job|job_admission|job_digest|job_store|open_job_store|postgres_.*|sqlite_.*)\.cc' "$build"

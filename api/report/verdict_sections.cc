@@ -6,6 +6,7 @@
 namespace slipway::api {
 
 using json::at;
+using json::has;
 using json::JsonValue;
 using json::text;
 
@@ -22,6 +23,8 @@ void add_advice(ReportPage& page, const JsonValue& decision) {
   const auto& advice = at(decision, "advice").elements;
   for (const JsonValue& each : advice) page.item(text(each, "words"));
   if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
+  if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
+    page.item("Other departures, or more charge: none of those asked for keeps the rules of the day");
 }
 
 }  // namespace slipway::api

@@ -58,7 +58,9 @@ let asked: AbortController | null = null;
 /** Asks for the sol in which the slider is, where that is not the one that is there. */
 export function askSky(state: State): void {
   const { terrain, day, sol } = state;
-  if (!terrain?.terrain || day.shows === "") return;
+  if (!terrain?.terrain) return;
+  if (sol && !sol.key.startsWith(`${terrain.terrain.name}/`)) return store.set({ sol: null }); // and asks again
+  if (day.shows === "") return;
   const place = placeOf(state);
   const key = `${terrain.terrain.name}/${place.x_m},${place.y_m}`;
   if (sol?.key === key && (sol.refused || (day.at_ms >= sol.from_ms && day.at_ms <= sol.to_ms))) return;

@@ -221,16 +221,32 @@ void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threa
     const Eigen::Vector2d centre = cells.centre_m(index(p, q));
     return geometry_.fractional_index(centre.x(), centre.y());
   };
+  const auto at = [&](int p, int q) {
+    const Cell cell = index(p, q);
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(cells.columns) +
+           static_cast<std::size_t>(cell.column);
+  };
+  // Those that look stand on the terrain, so that no line begins far from it.
   std::vector<std::pair<double, int>> p_of;
-  for (int k = 0; k < along_p; ++k) p_of.emplace_back(course.p_of(place(k, 0)), k);
+  int begin_q = along_q, end_q = 0;
+  for (int p = 0; p < along_p; ++p) {
+    bool looks = false;
+    for (int q = 0; q < along_q; ++q) {
+      if (std::isnan(eyes.heights_m[at(p, q)])) continue;
+      looks = true;
+      begin_q = std::min(begin_q, q);
+      end_q = std::max(end_q, q + 1);
+    }
+    if (looks) p_of.emplace_back(course.p_of(place(p, 0)), p);
+  }
+  if (p_of.empty()) return;
   std::sort(p_of.begin(), p_of.end(), std::greater<>());
-  const double first_q = course.q_of(place(0, 0)),
-               q_step = along_q > 1 ? course.q_of(place(0, 1)) - first_q : 1.0;
-  const double last_q = first_q + q_step * (along_q - 1);
+  const double first_q = course.q_of(place(0, 0));
+  const double q_step = along_q > 1 ? course.q_of(place(0, 1)) - first_q : 1.0;
   const double low_p = p_of.back().first, high_p = p_of.front().first;
   const std::pair<double, double> lean = std::minmax({course.q_per_p * low_p, course.q_per_p * high_p});
-  const int first_j = static_cast<int>(std::floor(std::min(first_q, last_q) - lean.second)),
-            last_j = static_cast<int>(std::floor(std::max(first_q, last_q) - lean.first));
+  const int first_j = static_cast<int>(std::floor(first_q + q_step * begin_q - lean.second)),
+            last_j = static_cast<int>(std::floor(first_q + q_step * (end_q - 1) - lean.first));
   const auto blocks = static_cast<std::size_t>((last_j - first_j) / kLinesOfBlock + 1);
   parallel_for(blocks, threads, [&](std::size_t block) {
     const int j = first_j + static_cast<int>(block) * kLinesOfBlock;
@@ -241,18 +257,16 @@ void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threa
       for (; next != p_of.end() && std::floor(next->first) + kNearby >= p; ++next) {
         // Eyes with j <= q - q_per_p p < j + the lines of a block.
         const double from = j + course.q_per_p * next->first, to = from + kLinesOfBlock;
-        double low = (from - first_q) / q_step, high = (to - first_q) / q_step;
-        if (q_step < 0.0) std::swap(low, high);
-        for (int k = std::max(0, static_cast<int>(std::floor(low))); k < along_q && k <= high + 1.0; ++k) {
+        const int last = std::min(end_q - 1, static_cast<int>(std::ceil((to - first_q) / q_step)));
+        for (int k = std::max(begin_q, static_cast<int>(std::floor((from - first_q) / q_step))); k <= last;
+             ++k) {
           const double q = first_q + q_step * k;
           const double line = q - course.q_per_p * next->first - j;
           if (line < 0.0 || line >= kLinesOfBlock) continue;
-          const Cell cell = index(next->second, k);
-          const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(cells.columns) +
-                          static_cast<std::size_t>(cell.column);
-          if (std::isnan(eyes.heights_m[at])) continue;
-          tangents[at] =
-              std::max(tangents[at], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[at])));
+          const std::size_t eye = at(next->second, k);
+          if (std::isnan(eyes.heights_m[eye])) continue;
+          tangents[eye] =
+              std::max(tangents[eye], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[eye])));
         }
       }
     }

@@ -66,7 +66,7 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
         problem.conditions);
     if (!predicted) return std::nullopt;
     DriveVerdict judged = judge_drive(problem, *predicted);
-    add_departures(problem, *predicted, judged, progress);
+    if (judged.verdict == Verdict::kGo) add_departures(problem, *predicted, judged, progress);
     if (judged.verdict != Verdict::kGo) continue;
     const sim::PathStation& end = shorter.back();
     Advice advice = advice_at(Advice::Kind::kShorterDrive, end.distance_m, end.pose);
@@ -74,6 +74,7 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
         "end the drive at {:.1f} m, at ({:.1f}, {:.1f}): to there it is a GO, with a halt "
         "in {} of {} draws",
         advice.to_m, advice.x_m, advice.y_m, percent(predicted->outcomes.stop.share), predicted->draws);
+    if (judged.departures && judged.departures->halt) advice.words += "; " + judged.reasons.front();
     return advice;
   }
   return std::nullopt;

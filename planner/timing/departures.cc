@@ -14,7 +14,7 @@ namespace slipway::planner {
 namespace {
 
 constexpr int kHaltPlaces = 20;
-constexpr std::size_t kHaltDepartures = 100;   // that are tried with a halt
+constexpr std::int64_t kHaltDepartures = 100;  // that are tried with a halt
 constexpr double kLongest_s = 60.0 * 86400.0;  // beyond it nothing is known of the sky
 constexpr std::array<double, 10> kHaltHours{0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0, 48.0};
 constexpr std::int64_t kNarrowed_ms = 1000;
@@ -67,20 +67,32 @@ std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t b
   return good;
 }
 
+// Readers cut the seconds off: the whole minutes within, where there are any.
+DepartureWindow to_the_minute(const DepartureWindow& window) {
+  constexpr std::int64_t kMinute_ms = 60'000;
+  const auto whole = [](double ms, auto round) {
+    return static_cast<std::int64_t>(round(ms / kMinute_ms)) * kMinute_ms;
+  };
+  const DepartureWindow minutes{
+      whole(static_cast<double>(window.from_ms), [](double x) { return std::ceil(x); }),
+      whole(static_cast<double>(window.to_ms), [](double x) { return std::floor(x); })};
+  return minutes.from_ms <= minutes.to_ms ? minutes : window;
+}
+
 struct WithHalt {
   ChargingHalt halt;
   TimedDrive drive;
 };
 
-std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m,
-                                  const std::vector<TimedDrive>& tried, Progress& progress) {
+std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, const Departure& departure,
+                                  Progress& progress) {
   std::optional<WithHalt> earliest;
-  const std::size_t step = 1 + tried.size() / kHaltDepartures;
-  for (std::size_t k = 0; k < tried.size(); k += step) {
-    const TimedDrive& direct = tried[k];
+  const std::int64_t span_ms = departure.to_ms - departure.from_ms;
+  const std::int64_t steps = std::min<std::int64_t>(kHaltDepartures, span_ms / std::llround(kLook_ms));
+  for (std::int64_t k = 0; k <= steps; ++k) {
+    const TimedDrive direct = drive.at(departure.from_ms + (steps > 0 ? k * (span_ms / steps) : 0));
     if (!lacks_charge_alone(direct)) continue;
-    progress.report("looking for a halt to charge",
-                    static_cast<double>(k) / static_cast<double>(tried.size()));
+    progress.report("looking for a halt to charge", static_cast<double>(k) / static_cast<double>(steps + 1));
     for (int place = 0; place < kHaltPlaces; ++place)
       for (const double hours : kHaltHours) {
         if (progress.cancelled()) return std::nullopt;
@@ -139,12 +151,11 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
     if (k % looks == 0 || is_last) found.tried.push_back(std::move(timed));
     if (is_last) break;
   }
-  const std::vector<TimedDrive>& tried = found.tried;
-  if (tried.empty()) return found;
+  if (found.tried.empty()) return found;
   found.nearest = drive.at(nearest->departs_ms, true);
   if (!found.windows.empty()) {
     found.best = found.nearest;
-  } else if (auto halting = with_halt(drive, prediction.length_m, tried, progress)) {
+  } else if (auto halting = with_halt(drive, prediction.length_m, departure, progress)) {
     found.halt = halting->halt;
     found.best = drive.at(halting->drive.departs_ms, true, halting->halt);
   }
@@ -163,8 +174,8 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     return severity(a.verdict) > severity(b.verdict);
   });
   if (!departures.best && !why.empty()) {
-    std::string words = fmt::format("no departure of {} that were tried keeps the rules of the day; at {} {}",
-                                    departures.tried.size(), utc_text(drive.departs_ms), why.front());
+    std::string words = fmt::format("no departure keeps the rules of the day; at {} {}",
+                                    utc_text(drive.departs_ms), why.front());
     for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
     const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
@@ -176,7 +187,7 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     const bool decides = verdict.verdict == Verdict::kGo;
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (!departures.windows.empty()) {
-    const DepartureWindow& first = departures.windows.front();
+    const DepartureWindow first = to_the_minute(departures.windows.front());
     verdict.reasons.push_back(fmt::format(
         "a departure between {} and {}{} keeps the rules of the day, best at {}", utc_text(first.from_ms),
         utc_text(first.to_ms), departures.windows.size() > 1 ? " and in later windows" : "",

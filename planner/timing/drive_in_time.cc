@@ -215,8 +215,15 @@ std::optional<double> DriveInTime::light_left_s(std::int64_t from_ms, double eno
     if (!sun) return std::nullopt;
     return over_horizon_rad(places_.back(), *sun) > 0.0;
   };
-  for (double lit_s = 0.0, s = 0.0;; lit_s = s, s = std::min(s + kStep_s, enough_s)) {
+  // An earlier arrival may have shown that the sun shines on.
+  const bool shines = from_ms >= lit_from_ms_ && from_ms <= lit_to_ms_;
+  double s = shines ? std::min(enough_s, static_cast<double>(lit_to_ms_ - from_ms) / 1000.0) : 0.0;
+  for (double lit_s = s;; lit_s = s, s = std::min(s + kStep_s, enough_s)) {
     const auto lit = is_lit(s);
+    if (lit.value_or(false)) {
+      if (!shines) lit_from_ms_ = from_ms;
+      lit_to_ms_ = shines ? std::max(lit_to_ms_, after(from_ms, s)) : after(from_ms, s);
+    }
     if (!lit) return std::nullopt;
     if (!*lit) {
       double dark_s = s;

@@ -37,7 +37,7 @@ class DriveInTime {
     double x_m, y_m;
     Eigen::Vector3d up;               // of the body
     std::vector<double> horizon_rad;  // all around; empty where it is not known
-    // In directions kFineRad apart, each looked at when a body stands close to the horizon there; else NaN.
+    // In 1440 directions, each looked at when a body stands close to the horizon there; else NaN.
     mutable std::vector<float> fine_rad = {};
   };
   // How much longer and with how much more energy than on the mean soils.
@@ -59,6 +59,7 @@ class DriveInTime {
   const sim::PowerSupply* supply_;
   std::vector<Place> places_;
   Pace usual_, slow_;
+  mutable std::int64_t lit_from_ms_ = 0, lit_to_ms_ = -1;  // between which the last place is known to be lit
 };
 
 }  // namespace slipway::planner

@@ -65,9 +65,13 @@ TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
 
 // To end sooner helps nothing where no departure keeps the rules of the day.
 TEST(DepartureRequest, NoShorterDriveIsAdvisedThatTheDayForbids) {
+  const std::string drive = R"("path":[{"x_m":20,"y_m":30},{"x_m":36,"y_m":30}],"draws":24)";
+  const auto at_any_time = kYard.checked(drive);
+  ASSERT_TRUE(at_any_time) << at_any_time.error().detail;
+  ASSERT_EQ(at_any_time->find("decision")->find("verdict")->text, "go");
   const auto answer = kYard.checked(
-      std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":36,"y_m":30}],"draws":24,"departure":{)") +
-      R"("from":"2026-07-01T01:00:00Z","to":"2026-07-01T03:00:00Z","min_sun_deg":0,)" + kSky + "}");
+      drive + R"(,"departure":{"from":"2026-07-01T01:00:00Z","arrive_by":"2026-07-01T00:30:00Z",)" + kSky +
+      "}");
   ASSERT_TRUE(answer) << answer.error().detail;
   const json::JsonValue& decision = *answer->find("decision");
   EXPECT_EQ(decision.find("verdict")->text, "no_go");

@@ -122,6 +122,22 @@ TEST(HorizonSweep, IsTheHorizonOfEachPlace) {
   }
 }
 
+// A picture may be asked for of a hundred thousand times the map; its lines begin on the map.
+TEST(HorizonSweep, PlacesOffTheMapLookNowhere) {
+  const auto terrain = sampled(kGrid, hills);
+  const HorizonSweep sweep(*terrain, kFlat);
+  const GridGeometry wide{
+      .rows = 64, .columns = 65, .west_m = -1e9, .north_m = 1e9, .cell_x_m = 3.1e7, .cell_y_m = 3.1e7};
+  const Eyes eyes = eyes_over(*terrain, wide, 1.0);
+  std::vector<float> tangents(eyes.heights_m.size(), -std::numeric_limits<float>::infinity());
+  sweep.raise(eyes, 0.3, 1, tangents);
+  for (std::size_t k = 0; k < tangents.size(); ++k) {
+    if (std::isnan(eyes.heights_m[k])) {
+      EXPECT_TRUE(std::isinf(tangents[k]));
+    }
+  }
+}
+
 TEST(Horizon, GoesOnOverTheGroundAroundTheTerrain) {
   const auto near = sampled(kGrid, [](double, double) { return 0.0; });
   constexpr GridGeometry kAround{

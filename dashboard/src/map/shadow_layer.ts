@@ -81,6 +81,7 @@ function wantedOf({ terrain, day, sol }: State, view: number[]): { path: string;
   const up = sol.moments.filter(({ sun }) => sun.elevation_deg > 0);
   const every = Math.ceil(up.length / most_suns);
   const moments = day.shows === "share" && up.length > 1 ? up.filter((_, i) => i % every === 0) : [momentAt(sol, day.at_ms)];
+  if (day.shows === "share" && moments.length === 1) moments.push(moments[0]!); // several suns have the colours of a share
   const suns = moments.map(({ sun }) => `${sun.azimuth_deg.toFixed(2)},${sun.elevation_deg.toFixed(2)}`).join(";");
   return { path: `v1/terrains/${encodeURIComponent(terrain.terrain!.name!)}/shadow.png?bounds=${bounds.join()}&sun=${suns}&v=${terrain.hash ?? ""}`, bounds, suns };
 }

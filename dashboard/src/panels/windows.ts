@@ -1,7 +1,7 @@
 // When the drive may begin, as the answer has it: the windows on a strip of time, and the best departure in words.
 import { button, h } from "../dom";
 import { metres, number, share } from "../format";
-import type { Route } from "../result";
+import { verdictWords, type Route } from "../result";
 import { utcText } from "../sky";
 import { store } from "../state";
 import { reasonText } from "./advice";
@@ -13,13 +13,18 @@ export function windowsView(route: Route): HTMLElement[] {
   const drive = best ?? nearest;
   // Of the same day the hour is enough.
   const after = (from: string, to: string) => (from.slice(0, 10) === to.slice(0, 10) ? utcText(to).slice(11) : utcText(to));
-  const range = (from: string, to: string) => (from === to ? utcText(from) : `${utcText(from).slice(0, -4)} to ${after(from, to)}`);
+  // The whole minutes within.
+  const minute = 60_000;
+  const inward = (from: string, to: string) => [Math.ceil(Date.parse(from) / minute), Math.floor(Date.parse(to) / minute)].map((at) => new Date(at * minute).toISOString()) as [string, string];
+  const told = (from: string, to: string) => (from >= to ? utcText(from) : `${utcText(from).slice(0, -4)} to ${after(from, to)}`);
+  const range = (from: string, to: string) => told(...inward(from, to));
+  const without = nearest?.rules.some(({ verdict }) => verdict === "no_go") ? "no_go" : "unknown";
   const [from_ms, to_ms] = [tried[0], tried.at(-1)].map((one) => Date.parse(one?.departs ?? ""));
   return [
     h("h3", {}, "When it may begin"),
     windows.length > 0
       ? h("ul", { class: "windows" }, windows.map(({ from, to }) => h("li", {}, h("span", { class: "badge go" }, "GO"), ` ${range(from, to)}`)))
-      : h("p", {}, h("span", { class: "badge no_go" }, "NO-GO"), halt ? " No departure keeps all that is asked of the day without a halt to charge." : " No departure keeps all that is asked of the day."),
+      : h("p", {}, h("span", { class: `badge ${halt ? "go" : without}` }, verdictWords[halt ? "go" : without]), halt ? " Only with a halt to charge." : " No departure keeps all that is asked of the day."),
     from_ms! < to_ms! ? strip(windows, from_ms!, to_ms!, drive?.departs) : null,
     drive ? h("p", { "data-departs": drive.departs }, h("strong", {}, `${best ? "Best" : "Nearest"}: ${utcText(drive.departs)}.`),
       ` It arrives ${after(drive.departs, drive.arrives)}, at the slow pace ${after(drive.departs, drive.arrives_late)}. The battery is at ${number(drive.charge_percent, 3)} % then (slow: ${number(drive.charge_low_percent, 3)} %), on the way never below ${number(drive.least_charge_percent, 3)} % (slow: ${number(drive.least_charge_low_percent, 3)} %). The sun is on it for ${share(drive.lit_share)} of the time.`,

@@ -147,9 +147,15 @@ Result<std::string> look(const SkyOptions& options) {
   }
   if (!options.horizon_map.empty()) {
     constexpr int kMostCells = 2048;
-    const int every = options.every > 0
-                          ? options.every
-                          : 1 + (std::max(info.geometry.rows, info.geometry.columns) - 1) / kMostCells;
+    const int every =
+        options.every > 0
+            ? options.every
+            : std::min({1 + (std::max(info.geometry.rows, info.geometry.columns) - 1) / kMostCells,
+                        info.geometry.rows, info.geometry.columns});
+    if (every > std::min(info.geometry.rows, info.geometry.columns))
+      return fail(ErrorCode::kInvalidRequest,
+                  fmt::format("--every {}: the terrain has {} x {} cells, so that the map would have none",
+                              every, info.geometry.rows, info.geometry.columns));
     if (std::filesystem::exists(options.horizon_map))
       return fail(ErrorCode::kUnwritableFile, options.horizon_map + " exists already");
     TerminalProgress progress;

@@ -207,12 +207,12 @@ std::string departure_lines(const JsonValue& decision) {
   if (departures == nullptr) return {};
   std::string out;
   for (const JsonValue& window : at(*departures, "windows").elements)
-    out += fmt::format("Depart between {} and {} UTC\n", to_the_minute(text(window, "from")),
-                       to_the_minute(text(window, "to")));
+    out += fmt::format("Depart between {} and {} UTC\n", text(window, "from").substr(0, 19),
+                       text(window, "to").substr(0, 19));
   const JsonValue& best = at(*departures, "best");
   const bool holds = !is_null(best);
   const JsonValue& drive = holds ? best : at(*departures, "nearest");
-  if (out.empty() && !holds) out += "No departure that was tried keeps what is asked of the day\n";
+  if (out.empty() && !holds) out += "No departure keeps what is asked of the day\n";
   out += fmt::format(
       "{}: depart {}, arrive {} (slow pace {}), sunlit {:.0f} % of the time, battery {:.0f} % at the arrival "
       "({:.0f} % at the worse pace)\n",
