@@ -63,22 +63,6 @@ TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
   EXPECT_TRUE(said);
 }
 
-// To end sooner helps nothing where no departure keeps the rules of the day.
-TEST(DepartureRequest, NoShorterDriveIsAdvisedThatTheDayForbids) {
-  const std::string drive = R"("path":[{"x_m":20,"y_m":30},{"x_m":36,"y_m":30}],"draws":24)";
-  const auto at_any_time = kYard.checked(drive);
-  ASSERT_TRUE(at_any_time) << at_any_time.error().detail;
-  ASSERT_EQ(at_any_time->find("decision")->find("verdict")->text, "go");
-  const auto answer = kYard.checked(
-      drive + R"(,"departure":{"from":"2026-07-01T01:00:00Z","arrive_by":"2026-07-01T00:30:00Z",)" + kSky +
-      "}");
-  ASSERT_TRUE(answer) << answer.error().detail;
-  const json::JsonValue& decision = *answer->find("decision");
-  EXPECT_EQ(decision.find("verdict")->text, "no_go");
-  for (const json::JsonValue& advice : decision.find("advice")->elements)
-    EXPECT_NE(advice.find("kind")->text, "shorter_drive") << advice.find("words")->text;
-}
-
 TEST(DepartureRequest, TimesMayHaveAZone) {
   const auto answer = kYard.checked(departing(
       std::string(R"("from":"2026-07-01T02:00:00+02:00","to":"2026-06-30T20:30:00-04:00",)") + kSky));

@@ -282,6 +282,10 @@ expect 2 "$slipway" sky --lonlat 137.4,-4.6 --at ""
 echo '[{' >"$folder/sky.json"
 expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/sky.json"
 holds sky.json "$folder/err"
+# To end sooner helps nothing where no departure keeps the rules of the day: without them the drive is a GO.
+expect 0 $shipped
+expect 3 $shipped --depart 2016-03-22T09:00:00Z --day arrive_by=2016-03-22T08:00:00Z
+! grep -q 'end the drive at' "$folder/out" || { echo "a shorter drive is advised that the day forbids"; exit 1; }
 # A GO that holds only with a wait says so first.
 expect 0 $shipped --depart 2016-03-22T01:00:00Z --day charge_percent=0
 holds '^GO: departing at .* must wait' "$folder/out"
