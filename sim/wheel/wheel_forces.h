@@ -82,7 +82,7 @@ struct WheelForces {
 // format. Quadrature: arc_quadrature.h, error below 1e-5 of the load (tests). Compiled for several instruction sets
 // (wheel_kernel.h).
 //
-//   sigma cos + tau_x sin >= 0 everywhere: where a braked rim shears downwards, tau_x ends there
+//   sigma cos + tau_x sin >= 0 ahead of the axle: where a braked rim shears downwards, tau_x ends there
 //
 // The last: soil that would have to hang on to the rim breaks off. Without it what is borne fell with depth, and the
 // pull of a balanced wheel in deep skid jumped by up to 17 loads.
