@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/angle.h"
-#include "dem/body_degrees.h"
 #include "sky/mars_time.h"
 
 namespace slipway::api {
@@ -20,7 +19,7 @@ struct Body {
   double radius_m, day_s;
 };
 constexpr Body kBodies[] = {
-    {"Mars", 3'389'500.0, 88'775.244}, {"Moon", 1'737'400.0, 2'551'442.9}, {"Earth", 6'371'000.0, 86'400.0}};
+    {"Mars", 3'389'500.0, sky::kSol_s}, {"Moon", 1'737'400.0, 2'551'442.9}, {"Earth", 6'371'000.0, 86'400.0}};
 
 const Body* body_of(const std::string& name) {
   const auto* const found = std::find_if(std::begin(kBodies), std::end(kBodies),
@@ -33,6 +32,10 @@ dem::BodyDegrees degrees_of(const TerrainSite& site) {
 }
 
 }  // namespace
+
+std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const dem::MapPlace& place) {
+  return degrees_of(site).to_degrees(place);
+}
 
 double body_radius_m(const std::string& body) {
   const Body* const found = body_of(body);
@@ -55,20 +58,23 @@ double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
   const dem::MapPlace middle{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
-  if (site.info().body == "Mars" && degrees_of(site).to_degrees(middle)) return std::nullopt;
+  if (site.info().body == "Mars" && degrees_at(site, middle)) return std::nullopt;
   return fmt::format("the terrain lies {}, where the sun's direction is not computed",
                      site.info().body == "Mars" || site.info().body == "other"
                          ? std::string("in a local frame")
                          : "on the " + site.info().body);
 }
 
-Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near) {
+int coarser_step(const dem::GridGeometry& terrain) {
   constexpr int kMostCells = 1024;  // along a side
+  return 1 + (std::max(terrain.rows, terrain.columns) - 1) / kMostCells;
+}
+
+Result<std::shared_ptr<const dem::Terrain>> ground_around(const TerrainSite& site, const dem::Terrain& near) {
   const dem::GridGeometry& whole = site.info().geometry;
   // Of a terrain whose cells are read when they are looked at no more than the coarse one is held.
   if (near.geometry() == whole && !near.is_read_by_tiles()) return std::shared_ptr<const dem::Terrain>();
-  const int step = 1 + (std::max(whole.rows, whole.columns) - 1) / kMostCells;
-  return site.read_samples(whole.extent(), step);
+  return site.read_samples(whole.extent(), coarser_step(whole));
 }
 
 Result<std::shared_ptr<const dem::Horizon>> horizon_over(const TerrainSite& site,
@@ -99,7 +105,7 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
              why || later) {
     return fail(ErrorCode::kInvalidRequest, why ? *why : *later,
                 {{why ? "/departure/from" : "/departure/to", why ? *why : *later}});
-  } else if (const auto degrees = degrees_of(site).to_degrees({start.x_m, start.y_m})) {
+  } else if (const auto degrees = degrees_at(site, {start.x_m, start.y_m})) {
     sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
   } else {
     return fail(ErrorCode::kInvalidRequest, "the start has no longitude and latitude on this map");

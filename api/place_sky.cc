@@ -17,7 +17,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr double kSol_ms = 88'775'244.0;
+constexpr double kSol_ms = 1000.0 * sky::kSol_s;
 
 // The local midnight of true solar time that is nearest to a time. A true sol is some seconds longer or
 // shorter than the mean one.
@@ -60,8 +60,7 @@ Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::
   const dem::GridGeometry& geometry = site.info().geometry;
   if (!geometry.extent().contains(x_m, y_m))
     return fail(ErrorCode::kOffMap, fmt::format("({:g}, {:g}) lies off the map", x_m, y_m));
-  const auto degrees =
-      dem::BodyDegrees(site.info().crs_wkt, site.info().body, geometry.extent()).to_degrees({x_m, y_m});
+  const auto degrees = degrees_at(site, {x_m, y_m});
   if (!degrees)
     return fail(ErrorCode::kInvalidRequest, "the place has no longitude and latitude on this map");
   if (!to_ms) {

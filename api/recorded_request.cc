@@ -51,18 +51,11 @@ RecordedRequest taken_apart(std::string_view recorded) {
 }
 
 std::optional<Error> changed_ground(const Service& service, const RecordedRequest& request) {
+  const auto catalogue = service.catalogue();
   std::vector<Fault> faults;
   for (const auto& [terrain, version] : request.terrains) {
-    const std::string now = version_now(service, terrain);
-    if (now == version) continue;
-    faults.push_back({"/terrain", now.empty()
-                                      ? fmt::format("the terrain {} was removed after this was asked "
-                                                    "for: ask about another one",
-                                                    in_quotes(terrain))
-                                      : fmt::format("the terrain {} was replaced after this was asked "
-                                                    "for, version {} by {}: ask again for an answer "
-                                                    "on what is there now",
-                                                    in_quotes(terrain), version, now)});
+    if (const auto same = terrain_at(*catalogue, terrain, version); !same)
+      faults.push_back({"/terrain", same.error().detail});
   }
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kConflict, summary_of(faults), faults};

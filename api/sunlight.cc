@@ -48,7 +48,11 @@ ShadowGround::ShadowGround(std::shared_ptr<const dem::Terrain> near, double body
 }
 
 Result<ShadowGround> ShadowGround::read(const TerrainSite& site, const dem::Extent& extent) {
-  auto near = ground_of(site, extent);
+  // Between the last fine cell and the first coarse one no height is known: that lies off the picture.
+  const dem::GridGeometry& cells = site.info().geometry;
+  const double margin_m = 2.0 * coarser_step(cells) * std::max(cells.cell_x_m, cells.cell_y_m);
+  auto near = ground_of(site, {extent.west_m - margin_m, extent.south_m - margin_m, extent.east_m + margin_m,
+                               extent.north_m + margin_m});
   if (!near) return fail(near.error());
   const auto around = ground_around(site, **near);
   if (!around) return fail(around.error());

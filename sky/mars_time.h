@@ -16,6 +16,8 @@ namespace slipway::sky {
 // of which none has followed yet; before 1972 none are counted.
 double terrestrial_days(std::int64_t utc_ms);
 
+inline constexpr double kSol_s = 88'775.244;  // a mean solar day of Mars
+
 // Time at a place on Mars.
 struct MarsTime {
   double sol_date = 0.0;            // Mars sol date: sols at the prime meridian since 29 December 1873

@@ -163,9 +163,10 @@ Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view ter
   return fail(ErrorCode::kNotFound, fmt::format("There is no terrain {}.", in_quotes(terrain)));
 }
 
-std::string terrain_of_answer(std::string_view answer) {
+AnsweredTerrain terrain_of_answer(std::string_view answer) {
   const auto document = read_answer_document(answer);
-  return document ? text(*document, "terrain") : std::string();
+  if (!document) return {};
+  return {text(*document, "terrain"), text(at(*document, "provenance"), "terrain_version")};
 }
 
 Result<void> write_answer_geojson(std::string_view answer, const AnswerMap& map,

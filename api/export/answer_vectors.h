@@ -24,8 +24,11 @@ struct AnswerMap {
 
 // The map of a terrain, from the document that GET /v1/terrains answers. Errors: not_found.
 Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view terrain);
-// The terrain that a "check/1", "prediction/1" or "plan/1" document is about.
-std::string terrain_of_answer(std::string_view answer);
+// The terrain that a "check/1", "prediction/1" or "plan/1" document is about, and its TerrainSite::version().
+struct AnsweredTerrain {
+  std::string name, version;
+};
+AnsweredTerrain terrain_of_answer(std::string_view answer);
 
 enum class VectorCoordinates {
   kMap,                // metres of the map, with its system in the member crs

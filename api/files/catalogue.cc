@@ -240,6 +240,21 @@ std::string unknown_terrain(const Catalogue& catalogue, std::string_view name) {
   return unknown_in(catalogue, "terrain", name, names_of(catalogue.terrains));
 }
 
+Result<std::shared_ptr<const TerrainSite>> terrain_at(const Catalogue& catalogue, std::string_view name,
+                                                      const std::string& version) {
+  const auto found = catalogue.terrains.find(name);
+  if (found == catalogue.terrains.end())
+    return fail(ErrorCode::kNotFound,
+                fmt::format("the terrain {} was removed after this was asked for: ask about another one",
+                            in_quotes(name)));
+  const std::string& now = found->second->version();
+  if (version.empty() || version == now) return found->second;
+  return fail(ErrorCode::kConflict,
+              fmt::format("the terrain {} was replaced after this was asked for, version "
+                          "{} by {}: ask again for an answer on what is there now",
+                          in_quotes(name), version, now));
+}
+
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils) {
   std::vector<Fault> faults;
   std::map<std::string, std::size_t> given;

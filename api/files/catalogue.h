@@ -63,6 +63,11 @@ std::string unknown_rover(const Catalogue& catalogue, std::string_view name);
 std::string unknown_soil(const Catalogue& catalogue, std::string_view name);
 std::string unknown_terrain(const Catalogue& catalogue, std::string_view name);
 
+// The terrain of a name as it was at TerrainSite::version(); an empty version is any. Errors: not_found;
+// conflict where the terrain was replaced since.
+Result<std::shared_ptr<const TerrainSite>> terrain_at(const Catalogue& catalogue, std::string_view name,
+                                                      const std::string& version);
+
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {
   std::vector<std::string> names;

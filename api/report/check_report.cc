@@ -160,11 +160,8 @@ Result<std::string> check_report(const Catalogue& catalogue, std::string_view an
   add_verdict(page, *check);
   add_rules(page, at(*check, "outcomes"));
   // A rover that is stuck where it stands has no line to draw.
-  auto map = draw_outcome_map(catalogue, *check);
-  if (!map && map.error().code != ErrorCode::kNoData) return fail(map.error());
-  if (map)
-    page.picture({"map", *std::move(map)},
-                 "The path by the halts and embeddings that are expected on each stretch");
+  if (auto map = draw_outcome_map(catalogue, *check); map || map.error().code != ErrorCode::kNoData)
+    add_map(page, std::move(map), "The path by the halts and embeddings that are expected on each stretch");
   add_position(page, *check);
   add_stretches(page, *check);
   page.picture(draw_check(*check),

@@ -345,22 +345,22 @@ dem::Extent broad(dem::Extent e) {
 }
 
 struct Drawn {
-  const TerrainSite* site;
+  std::shared_ptr<const TerrainSite> site;
   std::vector<DrawnRoute> routes;
   GroundWindow ground;
 };
 
 Result<Drawn> read_drawn(const Catalogue& catalogue, const JsonValue& document, bool is_broad) {
-  const auto site = catalogue.terrains.find(json::text(document, "terrain"));
-  if (site == catalogue.terrains.end())
-    return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
+  const auto site = terrain_at(catalogue, json::text(document, "terrain"),
+                               json::text(json::at(document, "provenance"), "terrain_version"));
+  if (!site) return fail(site.error());
   std::vector<DrawnRoute> routes = routes_of(document);
   if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
   const dem::Extent extent = extent_of(routes);
-  auto ground = site->second->read(is_broad ? broad(extent) : extent);
+  auto ground = (*site)->read(is_broad ? broad(extent) : extent);
   if (ground) ground = thinned_for_picture(*ground);
   if (!ground) return fail(ground.error());
-  return Drawn{site->second.get(), std::move(routes), *std::move(ground)};
+  return Drawn{*site, std::move(routes), *std::move(ground)};
 }
 
 // What happens on the stretch that a station lies on, for each station.

@@ -164,9 +164,7 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
                   has(route, "energy_wh") ? number(route, "energy_wh") : 0.0));
   json::Writer w;
   json::write_value(w, plan);
-  auto map = draw_route_map(catalogue, w.take());
-  if (!map) return fail(map.error());
-  page.picture({"map", *std::move(map)}, "The routes of the plan, by slip");
+  add_map(page, draw_route_map(catalogue, w.take()), "The routes of the plan, by slip");
   if (has(decision, "departures")) add_day(page, at(decision, "departures"));
   add_places(page, *sol);
   add_commands(page, route);

@@ -1,5 +1,8 @@
 #include "api/report/verdict_sections.h"
 
+#include <string>
+#include <utility>
+
 #include "api/json/lookup.h"
 #include "planner/problem/verdict.h"
 
@@ -25,6 +28,13 @@ void add_advice(ReportPage& page, const JsonValue& decision) {
   if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
   if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
     page.item("Other departures, or more charge: none of those asked for keeps the rules of the day");
+}
+
+void add_map(ReportPage& page, Result<std::string> map, std::string_view caption) {
+  if (map)
+    page.picture({"map", *std::move(map)}, std::string(caption));
+  else
+    page.paragraph("There is no map here: " + map.error().detail);
 }
 
 }  // namespace slipway::api

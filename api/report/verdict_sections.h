@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "api/chart/report_page.h"
 #include "api/json/json_value.h"
+#include "core/result.h"
 
 namespace slipway::api {
 
@@ -10,5 +14,8 @@ void add_verdict_banner(ReportPage& page, const json::JsonValue& document);
 
 // What would change a verdict that is no GO; nothing for a GO. `decision` has the verdict and the advice.
 void add_advice(ReportPage& page, const json::JsonValue& decision);
+
+// A map of an answer, or why there is none: an old answer's page is still whole without it.
+void add_map(ReportPage& page, Result<std::string> map, std::string_view caption);
 
 }  // namespace slipway::api

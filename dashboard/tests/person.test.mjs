@@ -47,6 +47,12 @@ const mapColours = (p, { x, y }) =>
   }), [x, y]);
 const mapPicture = async (p) => (await p.locator(".map").screenshot()).toString("base64");
 
+/** What is asked for while a knob or a mark is dragged goes out at most every 150 ms. Of the whole drag, since a busy machine hands single messages on late. */
+function assertPaced(times) {
+  const longest = (times.at(-1) - times[0]) / 150 + 2;
+  assert.ok(times.length <= longest, `${times.length} are asked for in ${times.at(-1) - times[0]} ms`);
+}
+
 async function settledAtTop(p) {
   await settled(p);
   await p.evaluate(() => window.scrollTo(0, 0));
@@ -129,7 +135,7 @@ test("1280, mouse: two clicks plan; a drag plans anew, pale at once, with little
   assert.ok((await p.evaluate(() => window.pale_ms)) < 400, "pale at once"); // by the clock of a machine that does other things too
   await settled(p);
   assert.ok(asked.length >= 2, "plans follow the drag");
-  asked.slice(1).forEach(({ at }, k) => assert.ok(at - asked[k].at > 130, `${at - asked[k].at} ms between two plans`));
+  assertPaced(asked.map(({ at }) => at));
   assert.ok(sent.length >= asked.length - 2, "what nobody waits for any more is cancelled");
   const now = await p.inputValue("#plan-goal");
   assert.notEqual(now, before);
@@ -248,7 +254,7 @@ test("1280, mouse: the time of day is dragged and the shadows move; a drive is p
   const dragged = await clock();
   assert.ok(dragged > morning + 480, `from ${morning} to ${dragged} min`);
   await p.until(([from]) => Math.abs(Number(document.querySelector(".map").dataset.shadow.split(",")[0]) - from) > 90, [azimuth]);
-  asked.slice(1).forEach((time, k) => assert.ok(time - asked[k] > 130, `${time - asked[k]} ms between two pictures`));
+  assertPaced(asked);
   await p.keyboard.press("ArrowRight");
   assert.ok([4, 5, 6].includes((await clock()) - dragged));
   await p.until((text) => location.hash.includes("sun=shadow") && location.hash.includes("at=2016-03-22T") && !location.hash.includes(text), encodeURIComponent(at));

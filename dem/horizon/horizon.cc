@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "dem/horizon/ray_direction.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -14,8 +16,8 @@ constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 // A ray over the ground: where it begins, and what the tangent of an elevation is at a distance.
 struct Ray {
-  double x_m, y_m, east, north;  // east and north of a metre
-  double eye_height_m;           // in the terrain's heights
+  double x_m, y_m, azimuth_rad;
+  double eye_height_m;  // in the terrain's heights
   double body_radius_m;
 
   double tangent(double height_m, double distance_m) const {
@@ -51,8 +53,8 @@ class Horizon::Field {
     if (rows_ < 2 || columns_ < 2) return from_m;
     const GridGeometry& geometry = terrain_->geometry();
     const Eigen::Vector2d start = geometry.fractional_index(ray.x_m, ray.y_m);
-    const Line line{start.x(), start.y(), Line::rate(-ray.north / geometry.cell_y_m),
-                    Line::rate(ray.east / geometry.cell_x_m)};
+    const Eigen::Vector2d per_m = index_per_m(geometry, ray.azimuth_rad);
+    const Line line{start.x(), start.y(), per_m.x(), per_m.y()};
     const auto [enters, leaves] = line.inside(rows_ - 1, columns_ - 1);
     const double nudge = 1e-7 * std::min(geometry.cell_x_m, geometry.cell_y_m);
     double d = std::max(from_m, enters) + nudge;
@@ -84,9 +86,6 @@ class Horizon::Field {
   struct Line {
     double row, column, rows_m, columns_m;  // where it begins, and of a metre
 
-    // Of a ray along a row or a column, where rounding has left a trace of the other: the ray would creep
-    // along the border of two patches.
-    static double rate(double per_m) { return std::abs(per_m) < 1e-10 ? 0.0 : per_m; }
     int row_at(double d, int most) const {
       return std::clamp(static_cast<int>(std::floor(row + rows_m * d)), 0, most);
     }
@@ -220,7 +219,7 @@ Horizon::Horizon(Horizon&&) noexcept = default;
 std::optional<double> Horizon::elevation_rad(double x_m, double y_m, double eye_m, double azimuth_rad) const {
   const std::optional<double> ground = near_->terrain().height_m(x_m, y_m);
   if (!ground) return std::nullopt;
-  const Ray ray{x_m, y_m, std::sin(azimuth_rad), std::cos(azimuth_rad), *ground + eye_m, body_radius_m_};
+  const Ray ray{x_m, y_m, azimuth_rad, *ground + eye_m, body_radius_m_};
   double best = kNothing;
   // Within half a cell there is but the slope that the rover itself stands on.
   const GridGeometry& geometry = near_->terrain().geometry();

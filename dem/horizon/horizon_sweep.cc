@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel_for.h"
+#include "dem/horizon/ray_direction.h"
 
 namespace slipway::dem {
 namespace {
@@ -68,13 +69,11 @@ struct Course {
   const float* first;
 
   Course(const GridGeometry& grid, const std::vector<float>& heights, double azimuth_rad) {
-    const double rows_m = -std::cos(azimuth_rad) / grid.cell_y_m,
-                 columns_m = std::sin(azimuth_rad) / grid.cell_x_m;
-    along_columns = std::abs(columns_m) >= std::abs(rows_m);
-    const double p_m = along_columns ? columns_m : rows_m, q_m = along_columns ? rows_m : columns_m;
+    const Eigen::Vector2d per_m = index_per_m(grid, azimuth_rad);
+    along_columns = std::abs(per_m.y()) >= std::abs(per_m.x());
+    const double p_m = along_columns ? per_m.y() : per_m.x(), q_m = along_columns ? per_m.x() : per_m.y();
     turned = p_m < 0.0;
     q_per_p = q_m / std::abs(p_m);
-    if (std::abs(q_per_p) < 1e-10) q_per_p = 0.0;  // a trace that rounding has left
     metres_per_p = 1.0 / std::abs(p_m);
     closest_m = 0.5 * std::min(grid.cell_x_m, grid.cell_y_m);
     p_count = along_columns ? grid.columns : grid.rows;
@@ -186,26 +185,37 @@ class Lines {
 Eyes eyes_over(const Terrain& terrain, const GridGeometry& cells, double eye_m) {
   Eyes eyes{cells, {}};
   eyes.heights_m.reserve(static_cast<std::size_t>(cells.rows) * static_cast<std::size_t>(cells.columns));
-  for (int row = 0; row < cells.rows; ++row)
+  const GridGeometry& whole = terrain.geometry();
+  for (int row = 0; row < cells.rows; ++row) {
+    // The rows of the terrain that a bilinear height needs.
+    const double at = whole.fractional_index(cells.west_m, cells.centre_m({row, 0}).y()).x();
+    const int first = static_cast<int>(std::clamp(std::floor(at) - 1.0, 0.0, whole.rows - 1.0));
+    const auto part = terrain.part({first, 0, std::min(4, whole.rows - first), whole.columns});
     for (int column = 0; column < cells.columns; ++column) {
       const Eigen::Vector2d centre = cells.centre_m({row, column});
-      const auto height = terrain.height_m(centre.x(), centre.y());
+      const auto height = part ? part->height_m(centre.x(), centre.y()) : std::nullopt;
       eyes.heights_m.push_back(height ? static_cast<float>(*height + eye_m) : kNoHeight);
     }
+  }
   return eyes;
 }
 
 HorizonSweep::HorizonSweep(const Terrain& terrain, double body_radius_m, std::optional<Extent> without)
     : geometry_(terrain.geometry()), body_radius_m_(body_radius_m) {
+  constexpr int kRowsAtOnce = 256;  // as a tiled raster is read
   heights_m_.reserve(static_cast<std::size_t>(geometry_.rows) * static_cast<std::size_t>(geometry_.columns));
-  for (int row = 0; row < geometry_.rows; ++row)
-    for (int column = 0; column < geometry_.columns; ++column) {
-      const auto height = terrain.height_m({row, column});
-      const Eigen::Vector2d centre = geometry_.centre_m({row, column});
-      const bool left_out = without && centre.x() > without->west_m && centre.x() < without->east_m &&
-                            centre.y() > without->south_m && centre.y() < without->north_m;
-      heights_m_.push_back(height && !left_out ? static_cast<float>(*height) : kNoHeight);
-    }
+  for (int from = 0; from < geometry_.rows; from += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, geometry_.rows - from);
+    const auto part = terrain.part({from, 0, rows, geometry_.columns});
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < geometry_.columns; ++column) {
+        const auto height = part ? part->height_m({row, column}) : std::nullopt;
+        const Eigen::Vector2d centre = geometry_.centre_m({from + row, column});
+        const bool left_out = without && centre.x() > without->west_m && centre.x() < without->east_m &&
+                              centre.y() > without->south_m && centre.y() < without->north_m;
+        heights_m_.push_back(height && !left_out ? static_cast<float>(*height) : kNoHeight);
+      }
+  }
 }
 
 void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threads,

@@ -14,7 +14,8 @@ struct Eyes {
   std::vector<float> heights_m;  // in the terrain's heights, row by row; NaN where nobody looks
 };
 
-// At `eye_m` over the terrain; nobody looks where it has no height.
+// At `eye_m` over the terrain; nobody looks where it has no height. As the sweep below it keeps no cell of a
+// terrain that is read by tiles: see Terrain::part, and Terrain::damage for what could not be read.
 Eyes eyes_over(const Terrain& terrain, const GridGeometry& cells, double eye_m);
 
 // The horizon in one direction from many places at once, see horizon.h. Parallel lines run over the ground in

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int16_t kNoData = -32768;
 constexpr double kScale_deg = 0.01;
-Result<void> fill(GDALDataset& dataset, const HorizonGround& ground, const Eyes& eyes, int directions,
+Result<void> fill(GDALDataset& dataset, const HorizonSweep& ground, const Eyes& eyes, int directions,
                   std::size_t threads, Progress& progress) {
   const GridGeometry& cells = eyes.cells;
   std::vector<float> tangents(eyes.heights_m.size());
@@ -31,8 +31,7 @@ Result<void> fill(GDALDataset& dataset, const HorizonGround& ground, const Eyes&
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the map was given up");
     progress.report("looking at horizons", 0.8 * direction / directions);
     std::fill(tangents.begin(), tangents.end(), -std::numeric_limits<float>::infinity());
-    for (const HorizonSweep* const sweep : ground)
-      sweep->raise(eyes, 2.0 * std::numbers::pi * direction / directions, threads, tangents);
+    ground.raise(eyes, 2.0 * std::numbers::pi * direction / directions, threads, tangents);
     for (std::size_t cell = 0; cell < values.size(); ++cell)
       values[cell] = std::isnan(eyes.heights_m[cell])
                          ? kNoData
@@ -47,7 +46,7 @@ Result<void> fill(GDALDataset& dataset, const HorizonGround& ground, const Eyes&
 }
 
 Result<void> write(const std::filesystem::path& out, const std::filesystem::path& uncompressed,
-                   const HorizonGround& ground, const Eyes& eyes, const std::string& crs_wkt, double eye_m,
+                   const HorizonSweep& ground, const Eyes& eyes, const std::string& crs_wkt, double eye_m,
                    int directions, std::size_t threads, const GdalSession& session, Progress& progress) {
   const GridGeometry& cells = eyes.cells;
   GDALDriverManager& drivers = *GetGDALDriverManager();
@@ -89,9 +88,9 @@ GridGeometry coarser_grid(const GridGeometry& geometry, int every) {
   return coarse;
 }
 
-Result<void> write_horizon_map(const std::filesystem::path& out, const HorizonGround& ground,
-                               const Eyes& eyes, const std::string& crs_wkt, double eye_m, int directions,
-                               std::size_t threads, Progress& progress) {
+Result<void> write_horizon_map(const std::filesystem::path& out, const HorizonSweep& ground, const Eyes& eyes,
+                               const std::string& crs_wkt, double eye_m, int directions, std::size_t threads,
+                               Progress& progress) {
   const std::filesystem::path whole = std::filesystem::absolute(out);
   const std::filesystem::path uncompressed = whole.string() + ".uncompressed.tmp";
   const GdalSession session;

@@ -14,6 +14,7 @@ namespace slipway::server {
 enum class Threads {
   kLight,   // who polls
   kHeavy,   // what takes long or much memory, a few at once
+  kDrawn,   // whole answers that are drawn into a file first, which may take minutes: one at a time
   kAsking,  // requests that are checked, and clients that wait for their end
   kPrompt,  // what waits for nothing, no store and no other thread
 };

@@ -13,6 +13,7 @@ HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, Liv
     : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
   const std::pair<Threads, std::size_t> sorts[] = {{Threads::kLight, options.worker_threads},
                                                    {Threads::kHeavy, options.heavy_threads},
+                                                   {Threads::kDrawn, 1},
                                                    {Threads::kAsking, options.asking_threads},
                                                    {Threads::kPrompt, 1}};
   for (const auto& sort : sorts) queues_[sort.first];

@@ -228,10 +228,10 @@ Result<void> JobAnswers::write_vectors(const api::Job& job, bool geopackage, boo
   if (!api::json::has_stations(answer))
     return fail(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no routes", job.kind));
   const std::shared_ptr<const api::Catalogue> catalogue = service_.catalogue();
-  const auto site = catalogue->terrains.find(api::json::terrain_of_answer(answer));
-  if (site == catalogue->terrains.end())
-    return fail(ErrorCode::kNotFound, "the terrain of the job is no longer among the service's");
-  const dem::ElevationInfo& info = site->second->info();
+  const api::json::AnsweredTerrain terrain = api::json::terrain_of_answer(answer);
+  const auto site = api::terrain_at(*catalogue, terrain.name, terrain.version);
+  if (!site) return fail(site.error());
+  const dem::ElevationInfo& info = (*site)->info();
   const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m,
                                  info.geometry.extent()};
   api::json::TablePages stations;

@@ -193,9 +193,9 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/jobs/{id}/map.tif", [answers](const HttpRequest& r) { return answers->raster(r); },
        kHeavy},
       {"GET", "/v1/jobs/{id}/vectors.gpkg",
-       [answers](const HttpRequest& r) { return answers->vectors(r, true); }, kHeavy},
+       [answers](const HttpRequest& r) { return answers->vectors(r, true); }, Threads::kDrawn},
       {"GET", "/v1/jobs/{id}/vectors.geojson",
-       [answers](const HttpRequest& r) { return answers->vectors(r, false); }, kHeavy},
+       [answers](const HttpRequest& r) { return answers->vectors(r, false); }, Threads::kDrawn},
       {"GET", "/v1/jobs/{id}/report", [answers](const HttpRequest& r) { return answers->report(r); }, kHeavy},
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };

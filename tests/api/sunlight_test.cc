@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "api/files/terrain_site.h"
 #include "api/place_sky.h"
 #include "core/angle.h"
 #include "core/utc.h"
+#include "small_world.h"
 
 // Where the ground lies in the sun, and where the sun stands over it.
 namespace slipway::api {
@@ -70,6 +73,32 @@ TEST(Sunlight, AMirroredMapHasMirroredShadows) {
     }
   EXPECT_GT(dark, 2000);
   EXPECT_LE(differ, 10) << "cells at the very edge of a shadow";
+}
+
+// Of a terrain of more than 1,024 cells, beyond a picture every fourth cell is known: the wall is not among
+// them.
+TEST(Sunlight, AWallRightBesideThePictureOfALargeTerrainCastsItsShadow) {
+  const testing::ScratchFolder scratch;
+  const auto folder = scratch.path() / "long";
+  std::filesystem::create_directory(folder);
+  constexpr int kRows = 40, kColumns = 3'100;
+  for (const int wall : {1'497, 1'498, 1'499, 1'500}) {
+    std::string line;
+    for (int column = 0; column < kColumns; ++column) line += column == wall ? "5 " : "0 ";
+    std::string grid = "ncols 3100\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int row = 0; row < kRows; ++row) grid += line + "\n";
+    testing::write_file(folder / "elevation.asc", grid);
+    testing::write_file(
+        folder / "terrain.json",
+        R"({"format":"terrain/1","name":"long","title":"t","elevation":"elevation.asc","gravity_m_s2":3.71})");
+    const auto site = TerrainSite::open(folder);
+    ASSERT_TRUE(site) << site.error().detail;
+    const dem::Extent beside{wall + 1.5, 10.0, wall + 21.5, 30.0};
+    const auto ground = ShadowGround::read(**site, beside);
+    ASSERT_TRUE(ground);
+    const dem::RgbaImage image = ground->draw(beside, {sun(270.0, 30.0)});
+    EXPECT_EQ(image.at(image.rows / 2, 40), kShadow) << wall;  // 3 m of the 9 m that lie in shadow
+  }
 }
 
 TEST(Sunlight, GroundOutsideThePictureCastsShadowsIntoIt) {

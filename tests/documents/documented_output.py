@@ -128,6 +128,7 @@ def main():
         folder = pathlib.Path(made)
         (folder / "bin").mkdir()
         (folder / "bin" / "slipway").symlink_to(slipway)
+        (folder / "bin" / "papers.py").symlink_to(root / "tests/documents/papers.py")
         (folder / "data").symlink_to(root / "data")
         for document in documents():
             ran += check_blocks(document, folder, faults)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The printed equations of the papers that docs/results/papers.md is about, evaluated by themselves, against what the program prints.
 
-    papers.py SLIPWAY SOURCE_FOLDER [PART ...]
+    papers.py [PART ...]     of the `slipway` that the shell finds
 
 Nothing of the program is used for the papers' side: the integrals are summed here, with the standard library alone. A part is one of
 wheel, derivations, side_wall, grousers, slip_sinkage, estimate, limit, motor, current, states, soils; all of them where none is named."""
@@ -14,11 +14,11 @@ import subprocess
 import sys
 import tempfile
 
-slipway, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+root = pathlib.Path(__file__).resolve().parents[2]
 
 
 def run(*words, data=root / "data"):
-    command, verb = [str(slipway), *words[:1]], list(words[1:])
+    command, verb = ["slipway", *words[:1]], list(words[1:])
     if words[0] in ("current", "estimate"):
         command, verb = [*command, words[1]], list(words[2:])
     done = subprocess.run([*command, "--data", str(data), *verb], capture_output=True, text=True)
@@ -150,7 +150,7 @@ def part_derivations():
             apart("Zhurong A6 to A7", dy * math.sin(t) - dx * math.cos(t), r * ((1 - slip) * math.cos(t) - 1))
             apart("Zhurong A7 to A8", -integral(lambda a: r * ((1 - slip) * math.cos(a) - 1), t, front), driving)
     for name, most in furthest.items():
-        print(f"  {name}: furthest apart by {most:.1e} of the radius")
+        print(f"  {name}: {'less' if most < 1e-9 else 'MORE'} than 1e-9 of the radius apart")
 
 
 def part_side_wall():
@@ -372,6 +372,6 @@ def part_soils():
 
 
 PARTS = {name[5:]: f for name, f in list(globals().items()) if name.startswith("part_")}
-for name in sys.argv[3:] or PARTS:
+for name in sys.argv[1:] or PARTS:
     print(name)
     PARTS[name]()

@@ -387,6 +387,33 @@ TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
   EXPECT_EQ(most, 2);
 }
 
+TEST(HttpServer, DrawnAnswersAreMadeOneAtATimeAndNoPictureWaitsBehindThem) {
+  std::atomic<int> now{0}, most{0};
+  std::atomic<bool> held{true};
+  const HttpResponse none{204, "", "", {}};
+  HttpServer server({}, {{"GET", "/picture", [&](const HttpRequest&) { return none; }, Threads::kHeavy},
+                         {"GET", "/drawn",
+                          [&](const HttpRequest&) {
+                            most = std::max(most.load(), ++now);
+                            while (held) std::this_thread::sleep_for(milliseconds(1));
+                            --now;
+                            return none;
+                          },
+                          Threads::kDrawn}});
+  const auto port = server.start();
+  ASSERT_TRUE(port);
+  std::vector<std::unique_ptr<RawClient>> clients;
+  for (int k = 0; k < 4; ++k) {
+    clients.push_back(std::make_unique<RawClient>(*port));
+    clients.back()->send(get("/drawn"));
+  }
+  while (now < 1) std::this_thread::sleep_for(milliseconds(1));
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/picture")).status, 204);
+  held = false;
+  for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
+  EXPECT_EQ(most, 1);
+}
+
 TEST(HttpServer, APromptRouteWaitsForNoOther) {
   std::atomic<int> waiting{0};
   std::atomic<bool> held{true};

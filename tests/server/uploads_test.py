@@ -267,6 +267,10 @@ class Uploads(unittest.TestCase):
         x, y = 0.5 * (extent["west_m"] + extent["east_m"]), 0.5 * (extent["south_m"] + extent["north_m"])
         request = {"terrain": "site", "rover": "mer-class", "path": [{"x_m": x, "y_m": y}, {"x_m": x + 5, "y_m": y}]}
         before = self.ask("/v1/predictions", request)["provenance"]["terrain_version"]
+        checked = self.server.ask("POST", "/v1/checks", request, {"Prefer": "respond-async"})[1]["Location"]
+        self.assertEqual(self.server.end_of(checked)["state"], "successful")
+        whole = self.server.ask("GET", checked + "/report")
+        self.assertIn(b"<svg", whole[2].split(b"expected on each stretch")[0])
         self.server.stop()
         self.server = Server(self.path, "--no-workers")
         batch = {"kind": "prediction", "requests": [request, {**request, "terrain": "gale"}]}
@@ -281,6 +285,14 @@ class Uploads(unittest.TestCase):
             status, _, body = self.server.ask("GET", place + "/result")
             self.assertEqual(status, 409, body)
             self.assertIn(before, json.loads(body)["detail"])
+        # What was answered stays; it is not drawn on ground that it is not about.
+        for picture in ("/map", "/vectors.gpkg", "/vectors.geojson?coordinates=lonlat"):
+            status, _, body = self.server.ask("GET", checked + picture)
+            self.assertEqual(status, 409, picture)
+            self.assertIn(before, json.loads(body)["detail"])
+        self.assertEqual(self.server.ask("GET", checked + "/result")[0], 200)
+        status, _, body = self.server.ask("GET", checked + "/report")
+        self.assertEqual((status, b"There is no map here: the terrain &quot;site&quot; was replaced" in body), (200, True), body[:3000])
         self.assertNotEqual(self.ask("/v1/predictions", request)["provenance"]["terrain_version"], before)
 
     def test_what_somebody_else_sent_stays(self):

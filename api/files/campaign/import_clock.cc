@@ -12,12 +12,13 @@
 #include "api/files/campaign/written_time.h"
 #include "core/fault_words.h"
 #include "core/text_table.h"
+#include "sky/mars_time.h"
 
 namespace slipway::api {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDay_s = 86'400.0, kSolOfMars_s = 88'775.244;
+constexpr double kDay_s = 86'400.0;
 constexpr std::string_view kNotations =
     "a number, a date (2023-09-08T10:00:00Z, 2023-251T10:00:00), hours of a day (10:00:00, Sol 12 10:00:00) "
     "or a spacecraft's clock (1/0397446444:12345)";
@@ -125,7 +126,7 @@ class Times {
     return kMissing;
   }
 
-  double day_s() const { return clock_.day_s.value_or(first_ && first_->of_a_sol ? kSolOfMars_s : kDay_s); }
+  double day_s() const { return clock_.day_s.value_or(first_ && first_->of_a_sol ? sky::kSol_s : kDay_s); }
 
   // A clock that is far behind the row before has passed midnight.
   double past_midnight_s(double now_s) {
@@ -201,7 +202,7 @@ class Times {
       return fmt::format(
           "{} are read as hours, minutes and seconds of a day that takes {} s; if it "
           "is another (a sol of Mars takes {} s), add the key clock.day_s",
-          text, day_s(), kSolOfMars_s);
+          text, day_s(), sky::kSol_s);
     if (!clock_.ticks_per_s)
       return fmt::format("{} are read as seconds of a spacecraft's clock, whose ticks are all 0", text);
     return fmt::format("{} are read as seconds and ticks of a spacecraft's clock, {} ticks a second", text,

@@ -19,7 +19,7 @@ const numbers: Asked[] = [
   { key: "optical_depth", words: "Dust, optical depth", lowest: 0, highest: 20, usual: "0" },
   { key: "coldest_c", words: "Coldest air, °C", lowest: -273, highest: 200 },
   { key: "warmest_c", words: "Warmest air, °C", lowest: -273, highest: 200 },
-  { key: "every_min", words: "Tried every, min", lowest: 0.1, highest: 100_000, usual: "15" },
+  { key: "every_min", words: "Listed every, min", lowest: 0.1, highest: 100_000, usual: "15" },
 ];
 
 /** Elsewhere a request brings a sky of its own, which a form has no room for. */

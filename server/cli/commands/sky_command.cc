@@ -17,7 +17,6 @@
 #include "api/place_sky.h"
 #include "core/angle.h"
 #include "core/utc.h"
-#include "dem/body_degrees.h"
 #include "dem/horizon/horizon.h"
 #include "dem/write/horizon_map.h"
 #include "server/cli/inquiry/command_parts.h"
@@ -61,7 +60,7 @@ Result<Place> place_of(const SkyOptions& options) {
   const dem::MapPlace on_map = options.place ? dem::MapPlace{options.place->x_m, options.place->y_m}
                                              : dem::MapPlace{0.5 * (extent.west_m + extent.east_m),
                                                              0.5 * (extent.south_m + extent.north_m)};
-  place.degrees = dem::BodyDegrees(info.crs_wkt, info.body, extent).to_degrees(on_map);
+  place.degrees = api::degrees_at(*place.site, on_map);
   return place;
 }
 
@@ -144,6 +143,7 @@ Result<std::string> look(const SkyOptions& options) {
     if (!answer.horizon_rad)
       return fail(ErrorCode::kOffMap, fmt::format("the terrain has no height at ({:g}, {:g})",
                                                   options.place->x_m, options.place->y_m));
+    if (auto damage = (*terrain)->damage()) return fail(*damage);
   }
   if (!options.horizon_map.empty()) {
     constexpr int kMostCells = 2048;
@@ -161,7 +161,8 @@ Result<std::string> look(const SkyOptions& options) {
     TerminalProgress progress;
     const dem::HorizonSweep ground(**terrain, body_radius_m);
     const dem::Eyes eyes = dem::eyes_over(**terrain, dem::coarser_grid(info.geometry, every), options.eye_m);
-    auto written = dem::write_horizon_map(options.horizon_map, {&ground}, eyes, info.crs_wkt, options.eye_m,
+    if (auto damage = (*terrain)->damage()) return fail(*damage);
+    auto written = dem::write_horizon_map(options.horizon_map, ground, eyes, info.crs_wkt, options.eye_m,
                                           options.directions, 0, progress);
     if (!written) return fail(written.error());
   }

@@ -32,7 +32,7 @@ Result<api::json::AnswerMap> map_of(Inquiry& service, const std::string& terrain
 }
 
 Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool geopackage, bool lonlat) {
-  const auto map = map_of(service, api::json::terrain_of_answer(answer));
+  const auto map = map_of(service, api::json::terrain_of_answer(answer).name);
   if (!map) return fail(map.error());
   api::json::TablePages stations;
   if (api::json::is_thinned(answer)) {
