@@ -215,7 +215,7 @@ class ServerWorld final : public testing::SimulatedWorld {
 
 // SLIPWAY_SEEDS="FIRST COUNT" runs others.
 TEST(SimulatedPostgresStore, KeepsItsPromisesWhateverHappens) {
-  std::uint64_t first = 0, count = 24;
+  std::uint64_t first = 0, count = 16;
   if (const char* const given = std::getenv("SLIPWAY_SEEDS")) std::istringstream(given) >> first >> count;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const auto schema = testing::PostgresSchema::make();

@@ -89,6 +89,10 @@ TEST(Sunlight, AWallRightBesideThePictureOfALargeTerrainCastsItsShadow) {
     for (int row = 0; row < kRows; ++row) grid += line + "\n";
     testing::write_file(folder / "elevation.asc", grid);
     testing::write_file(
+        folder / "elevation.prj",
+        R"(PROJCS["Mars",GEOGCS["Mars",DATUM["Mars",SPHEROID["Mars",3396190,0]],PRIMEM["Zero",0],)"
+        R"(UNIT["degree",0.0174532925199433]],PROJECTION["Equirectangular"],UNIT["metre",1]])");
+    testing::write_file(
         folder / "terrain.json",
         R"({"format":"terrain/1","name":"long","title":"t","elevation":"elevation.asc","gravity_m_s2":3.71})");
     const auto site = TerrainSite::open(folder);
