@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/angle.h"
+#include "sky/orientation.h"
 
 namespace slipway::sky {
 namespace {
 
 constexpr double kDayMs = 86'400'000.0, kDay_s = 86'400.0;
 constexpr double kJ2000UnixDays = 10957.5;  // of noon, 1 January 2000
-constexpr double kPolar = 3376.20 / 3396.19;
 
 // From these days since 1970 on, TAI is so many seconds ahead of UTC [IERS Bulletin C].
 struct LeapSecond {
@@ -76,16 +75,6 @@ Orbit orbit_at(double days) {
                         0.00031 * std::cos(3.0 * mean) - 0.00003 * std::cos(4.0 * mean))};
 }
 
-// East, north and up at a place on the ellipsoid, as rows in the body's frame.
-Eigen::Matrix3d level_frame(double east_longitude_rad, double latitude_rad) {
-  const double graphic = std::atan2(std::sin(latitude_rad), kPolar * kPolar * std::cos(latitude_rad));
-  const double sl = std::sin(east_longitude_rad), cl = std::cos(east_longitude_rad);
-  const double sp = std::sin(graphic), cp = std::cos(graphic);
-  Eigen::Matrix3d frame;
-  frame << -sl, cl, 0.0, -sp * cl, -sp * sl, cp, cp * cl, cp * sl, sp;
-  return frame;
-}
-
 // Mean elements of an orbit in the ecliptic of J2000 and their change in a century, in degrees.
 struct Elements {
   double axis_au, eccentricity, inclination, longitude, perihelion, node;
@@ -116,19 +105,6 @@ Eigen::Vector3d position_au(const Elements& orbit, double days) {
   return AngleAxisd(kObliquity, Vector3d::UnitX()) * AngleAxisd(node, Vector3d::UnitZ()) *
          AngleAxisd(inclination, Vector3d::UnitX()) * AngleAxisd(perihelion - node, Vector3d::UnitZ()) *
          in_orbit;
-}
-
-// Turns the equator of J2000 into the frame that is fixed to Mars.
-Eigen::Matrix3d mars_fixed(double days) {
-  const double centuries = days / 36525.0;
-  const double right_ascension = rad_from_deg(317.68143 - 0.1061 * centuries);
-  const double declination = rad_from_deg(52.88650 - 0.0609 * centuries);
-  const double prime = rad_from_deg(turned(176.630 + 350.89198226 * days));
-  using Eigen::AngleAxisd, Eigen::Vector3d;
-  return (AngleAxisd(-prime, Vector3d::UnitZ()) *
-          AngleAxisd(declination - 0.5 * std::numbers::pi, Vector3d::UnitX()) *
-          AngleAxisd(-right_ascension - 0.5 * std::numbers::pi, Vector3d::UnitZ()))
-      .toRotationMatrix();
 }
 
 }  // namespace
@@ -170,7 +146,7 @@ Bearing mars_sun(std::int64_t utc_ms, double east_longitude_rad, double latitude
   const double over = east_longitude_rad - rad_from_deg(15.0 * (time.true_solar_h - 12.0));
   const double level = std::cos(time.declination_rad);
   const Eigen::Vector3d sun(level * std::cos(over), level * std::sin(over), std::sin(time.declination_rad));
-  return bearing_of(level_frame(east_longitude_rad, latitude_rad) * sun);
+  return bearing_of(level_frame(east_longitude_rad, latitude_rad, kMarsPolar) * sun);
 }
 
 Bearing mars_earth(std::int64_t utc_ms, double east_longitude_rad, double latitude_rad) {
@@ -179,7 +155,8 @@ Bearing mars_earth(std::int64_t utc_ms, double east_longitude_rad, double latitu
   const Eigen::Vector3d mars = position_au(kMars, days);
   Eigen::Vector3d away = position_au(kEarth, days) - mars;
   for (int k = 0; k < 3; ++k) away = position_au(kEarth, days - kLightDaysPerAu * away.norm()) - mars;
-  return bearing_of(level_frame(east_longitude_rad, latitude_rad) * (mars_fixed(days) * away));
+  return bearing_of(level_frame(east_longitude_rad, latitude_rad, kMarsPolar) *
+                    (mars_orientation().fixed(days) * away));
 }
 
 }  // namespace slipway::sky

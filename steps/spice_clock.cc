@@ -4,43 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "core/fault_words.h"
 #include "steps/spice_text_kernel.h"
 
 namespace slipway::steps {
 namespace {
-
-using Assignments = std::map<std::string, KernelValues>;
 
 tl::unexpected<Error> refuse(std::string_view file, std::string place, std::string message) {
   return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read as a clock", file),
               {{std::move(place), std::move(message)}});
 }
 
-// The numbers of a name, of which there must be `least` or more.
-Result<std::vector<double>> numbers_of(const Assignments& all, std::string_view file, const std::string& name,
-                                       std::size_t least) {
-  const auto found = all.find(name);
-  if (found == all.end()) return refuse(file, std::string(file), fmt::format("there is no {}", name));
-  const std::string place = fmt::format("{}, line {}", file, found->second.line);
-  std::vector<double> numbers;
-  for (const std::string_view word : found->second.words) {
-    double value = 0.0;
-    if (!kernel_number(word, value))
-      return refuse(file, place, fmt::format("{}: {} is no number", name, in_quotes(word)));
-    numbers.push_back(value);
-  }
-  if (numbers.size() < least)
-    return refuse(file, place,
-                  fmt::format("{} has {} numbers, must have {} or more", name, numbers.size(), least));
-  return numbers;
-}
-
-Result<void> read_coefficients(const Assignments& all, std::string_view file, const std::string& name,
+Result<void> read_coefficients(const KernelAssignments& all, std::string_view file, const std::string& name,
                                SpacecraftClock& clock) {
-  const auto numbers = numbers_of(all, file, name, 3);
+  const auto numbers = kernel_numbers(all, file, name, 3);
   if (!numbers) return fail(numbers.error());
   const std::string place = fmt::format("{}, line {}", file, all.at(name).line);
   if (numbers->size() % 3 != 0)
@@ -104,12 +81,12 @@ Result<SpacecraftClock> read_spacecraft_clock(std::string_view text, std::string
   if (!all) return fail(all.error());
   SpacecraftClock clock;
   const auto of_clock = [id](std::string_view name) { return fmt::format("{}_{}", name, id); };
-  const auto type = numbers_of(*all, file, of_clock("SCLK_DATA_TYPE"), 1);
+  const auto type = kernel_numbers(*all, file, of_clock("SCLK_DATA_TYPE"), 1);
   if (!type) return fail(type.error());
   if (type->front() != 1.0) return refuse(file, std::string(file), "the clock is not of SCLK type 1");
   // Terrestrial time is 2; where no system is named it is TDB, 1.
   if (all->contains(of_clock("SCLK01_TIME_SYSTEM"))) {
-    const auto system = numbers_of(*all, file, of_clock("SCLK01_TIME_SYSTEM"), 1);
+    const auto system = kernel_numbers(*all, file, of_clock("SCLK01_TIME_SYSTEM"), 1);
     if (!system) return fail(system.error());
     if (system->front() != 1.0 && system->front() != 2.0)
       return refuse(file, std::string(file), "the parallel time must be TDB (1) or TDT (2)");
@@ -118,7 +95,7 @@ Result<SpacecraftClock> read_spacecraft_clock(std::string_view text, std::string
     clock.parallel_is_tdt = false;
   }
   // A tick is the least count; the rate is of the first field, which has the product of the others' moduli.
-  const auto moduli = numbers_of(*all, file, of_clock("SCLK01_MODULI"), 1);
+  const auto moduli = kernel_numbers(*all, file, of_clock("SCLK01_MODULI"), 1);
   if (!moduli) return fail(moduli.error());
   for (std::size_t k = 1; k < moduli->size(); ++k) clock.ticks_per_count *= (*moduli)[k];
   if (!(clock.ticks_per_count >= 1.0 && clock.ticks_per_count <= 1e12))
@@ -132,11 +109,11 @@ Result<EphemerisTime> read_leap_seconds(std::string_view text, std::string_view 
   const auto all = read_text_kernel(text, file);
   if (!all) return fail(all.error());
   EphemerisTime time;
-  const auto amplitude = numbers_of(*all, file, "DELTET/K", 1);
+  const auto amplitude = kernel_numbers(*all, file, "DELTET/K", 1);
   if (!amplitude) return fail(amplitude.error());
-  const auto eccentricity = numbers_of(*all, file, "DELTET/EB", 1);
+  const auto eccentricity = kernel_numbers(*all, file, "DELTET/EB", 1);
   if (!eccentricity) return fail(eccentricity.error());
-  const auto anomaly = numbers_of(*all, file, "DELTET/M", 2);
+  const auto anomaly = kernel_numbers(*all, file, "DELTET/M", 2);
   if (!anomaly) return fail(anomaly.error());
   time = {amplitude->front(), eccentricity->front(), (*anomaly)[0], (*anomaly)[1]};
   if (std::abs(time.amplitude_s) > 1.0 || std::abs(time.eccentricity) > 1.0 ||

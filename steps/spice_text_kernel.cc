@@ -28,7 +28,7 @@ class TextKernelReader {
  public:
   TextKernelReader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
-  Result<std::map<std::string, KernelValues>> read() {
+  Result<KernelAssignments> read() {
     if (text_.find('\0') != std::string_view::npos) return refuse(1, "a NUL byte: this is no text");
     if (auto cut = cut_tokens(); !cut) return fail(cut.error());
     for (std::size_t at = 0; at < tokens_.size();)
@@ -113,12 +113,12 @@ class TextKernelReader {
 
   std::string_view text_, file_;
   std::vector<Token> tokens_;
-  std::map<std::string, KernelValues> values_;
+  KernelAssignments values_;
 };
 
 }  // namespace
 
-Result<std::map<std::string, KernelValues>> read_text_kernel(std::string_view text, std::string_view file) {
+Result<KernelAssignments> read_text_kernel(std::string_view text, std::string_view file) {
   return TextKernelReader(text, file).read();
 }
 
@@ -129,6 +129,27 @@ bool kernel_number(std::string_view word, double& value) {
   const std::optional<double> number = csv_number(plain);
   if (number) value = *number;
   return number.has_value();
+}
+
+Result<std::vector<double>> kernel_numbers(const KernelAssignments& all, std::string_view file,
+                                           const std::string& name, std::size_t least) {
+  const auto refuse = [file](std::string place, std::string message) {
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read as a text kernel", file),
+                {{std::move(place), std::move(message)}});
+  };
+  const auto found = all.find(name);
+  if (found == all.end()) return refuse(std::string(file), fmt::format("there is no {}", name));
+  const std::string place = fmt::format("{}, line {}", file, found->second.line);
+  std::vector<double> numbers;
+  for (const std::string_view word : found->second.words) {
+    double value = 0.0;
+    if (!kernel_number(word, value))
+      return refuse(place, fmt::format("{}: {} is no number", name, in_quotes(word)));
+    numbers.push_back(value);
+  }
+  if (numbers.size() < least)
+    return refuse(place, fmt::format("{} has {} numbers, must have {} or more", name, numbers.size(), least));
+  return numbers;
 }
 
 }  // namespace slipway::steps

@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/angle.h"
 #include "core/result.h"
+#include "steps/kernel_bytes.h"
 #include "steps/slip_step.h"
 
 // Steps of measured slip out of a rover's reconstructed SPICE kernels. A kernel of positions has what wheel
@@ -63,12 +62,6 @@ struct SpiceStepSummary {
 struct SpiceSteps {
   std::vector<SlipStep> steps;  // by rising time
   SpiceStepSummary summary;
-};
-
-// A file in memory. Its kind (positions, attitudes, clock, leap seconds) is told by its content.
-struct KernelBytes {
-  std::string name;
-  std::string_view bytes;
 };
 
 // There must be positions of the rover; with attitudes also its clock. Errors: unreadable_data with the file

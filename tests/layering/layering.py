@@ -13,7 +13,7 @@ MAY_SEE = {
     "sky": {"core"},
     "dem": {"core"},
     "sim": {"core"},
-    "steps": {"core", "sim"},
+    "steps": {"core", "sky", "sim"},
     "planner": {"core", "sky", "dem", "sim"},
     "gap": {"core", "sim"},
     "campaign": {"core", "sky", "dem", "sim", "steps", "planner", "gap"},

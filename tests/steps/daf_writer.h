@@ -102,6 +102,39 @@ inline Array spk(int type, const std::vector<State>& states, std::int32_t target
   return array;
 }
 
+// SPK type 2 or 3 in the frame of J2000, of a body whose place in km is a function of TDB seconds past J2000:
+// the Chebyshev sums that meet it at their nodes.
+template <class Place>
+Array chebyshev(int type, std::int32_t target, std::int32_t centre, double first_s, double interval_s,
+                std::size_t intervals, std::size_t coefficients, const Place& place_km) {
+  Array array{"made of a series",
+              {first_s, first_s + interval_s * static_cast<double>(intervals)},
+              {target, centre, 1, type},
+              {}};
+  const double n = static_cast<double>(coefficients), half_s = 0.5 * interval_s;
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const double middle_s = first_s + interval_s * (static_cast<double>(k) + 0.5);
+    std::vector<double> record(2 + 3 * coefficients, 0.0);
+    record[0] = middle_s;
+    record[1] = half_s;
+    for (std::size_t node = 0; node < coefficients; ++node) {
+      const double angle = std::acos(-1.0) * (static_cast<double>(node) + 0.5) / n;
+      const auto km = place_km(middle_s + half_s * std::cos(angle));
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t j = 0; j < coefficients; ++j)
+          record[2 + c * coefficients + j] +=
+              (j == 0 ? 1.0 : 2.0) / n * km[c] * std::cos(static_cast<double>(j) * angle);
+    }
+    // Velocities of a type 3 that are not the positions': who looks at them is found out.
+    if (type == 3) record.resize(2 + 6 * coefficients, 1e6);
+    array.words.insert(array.words.end(), record.begin(), record.end());
+  }
+  for (const double word : {first_s, interval_s, static_cast<double>((type == 3 ? 6 : 3) * coefficients + 2),
+                            static_cast<double>(intervals)})
+    array.words.push_back(word);
+  return array;
+}
+
 struct Pointing {
   double tick = 0.0;
   std::array<double, 4> q{1.0, 0.0, 0.0, 0.0};

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "daf_writer.h"
 #include "steps/spice_ck.h"
@@ -26,7 +28,9 @@ std::string first_fault(const std::string& bytes) {
   const auto daf = DafFile::read(bytes, "made");
   if (!daf) return fault_of(daf.error());
   for (const DafArray& array : daf->arrays()) {
-    if (daf->kind() == DafKind::kSpk) {
+    if (daf->kind() == DafKind::kSpk && has_polynomials(array)) {
+      if (const auto read = read_spk_polynomials(*daf, array); !read) return fault_of(read.error());
+    } else if (daf->kind() == DafKind::kSpk) {
       if (const auto read = read_spk_segment(*daf, array); !read) return fault_of(read.error());
     } else {
       if (const auto read = read_ck_segment(*daf, array); !read) return fault_of(read.error());
@@ -44,6 +48,11 @@ std::vector<made::State> line_of_states(std::size_t n) {
   for (std::size_t k = 0; k < n; ++k)
     states.push_back({1000.0 + 10.0 * static_cast<double>(k), {static_cast<double>(k), -2.5, 0.125}});
   return states;
+}
+
+std::array<double, 3> cubic_km(double et_s) {
+  const double t = et_s / 10.0;
+  return {1.0 + t, t * t - 3.0, 0.5 * t * t * t - t};
 }
 
 std::vector<made::Pointing> turning(std::size_t n, double rad_each) {
@@ -135,7 +144,9 @@ TEST(SpiceDaf, AFileThatIsCutShortIsRefusedAtEveryLength) {
     const std::string spk =
         made::daf("DAF/SPK ", {made::spk(9, line_of_states(12)), made::spk(13, line_of_states(9))}, big);
     const std::string ck = made::daf("DAF/CK  ", {made::ck(3, turning(15, 0.1), true, {0.0})}, big);
-    for (const std::string& whole : {spk, ck}) {
+    const std::string polynomials =
+        made::daf("DAF/SPK ", {made::chebyshev(2, 301, 399, 0.0, 10.0, 9, 5, cubic_km)}, big);
+    for (const std::string& whole : {spk, ck, polynomials}) {
       ASSERT_EQ(first_fault(whole), "");
       for (std::size_t length = 0; length < whole.size(); ++length)
         ASSERT_NE(first_fault(whole.substr(0, length)), "") << length;
@@ -148,7 +159,9 @@ TEST(SpiceDaf, AFileThatIsCutShortIsRefusedAtEveryLength) {
 TEST(SpiceDaf, AFileWithAChangedByteIsReadOrRefused) {
   const std::string spk = made::daf("DAF/SPK ", {made::spk(9, line_of_states(3))}, false);
   const std::string ck = made::daf("DAF/CK  ", {made::ck(3, turning(3, 0.1), false, {0.0})}, true);
-  for (const std::string& whole : {spk, ck})
+  const std::string polynomials =
+      made::daf("DAF/SPK ", {made::chebyshev(3, 301, 399, 0.0, 10.0, 3, 4, cubic_km)}, false);
+  for (const std::string& whole : {spk, ck, polynomials})
     for (std::size_t at = 0; at < whole.size(); ++at)
       for (const char change : {'\x00', '\x7F', '\xFF', '\x01'}) {
         std::string changed = whole;
@@ -198,9 +211,9 @@ TEST(SpiceSpk, StatesThatCanNotBe) {
   expect_fault(changed(13, [](Words& w) { w[19] = INFINITY; }), "a time is no number or beyond 1e12 s");
   expect_fault(changed(9, [](Words& w) { w[0] = 1e13; }), "or beyond the solar system");
   expect_fault(changed(8, [](Words& w) { w[19] = -1.0; }), "a time is before the one that precedes it");
-  made::Array chebyshev = made::spk(9, line_of_states(3));
-  chebyshev.whole[3] = 2;
-  expect_fault(made::daf("DAF/SPK ", {chebyshev}, true), "only SPK types 8, 9 and 13 are read");
+  made::Array other = made::spk(9, line_of_states(3));
+  other.whole[3] = 5;
+  expect_fault(made::daf("DAF/SPK ", {other}, true), "only SPK types 8, 9 and 13 are read");
 }
 
 TEST(SpiceSpk, EqualTimesStayInTheOrderOfTheFile) {
@@ -210,6 +223,101 @@ TEST(SpiceSpk, EqualTimesStayInTheOrderOfTheFile) {
   const auto segment = read_spk_segment(*daf, daf->arrays()[0]);
   ASSERT_TRUE(segment);
   EXPECT_NEAR(segment->states[1].position_m[0], 2.0, 1e-12);
+}
+
+SpkPolynomials polynomials_of(const made::Array& array, bool big_endian) {
+  const std::string bytes = made::daf("DAF/SPK ", {array}, big_endian);
+  const auto daf = DafFile::read(bytes, "made");
+  EXPECT_TRUE(daf);
+  auto read = read_spk_polynomials(*daf, daf->arrays()[0]);
+  EXPECT_TRUE(read) << (read ? "" : fault_of(read.error()));
+  return read ? *std::move(read) : SpkPolynomials{};
+}
+
+// A cubic is met by four coefficients, in every interval and on both of its ends; its derivative is the
+// velocity, whatever a type 3 says of it.
+TEST(SpiceSpk, PolynomialsOfTypes2And3) {
+  for (const bool big : {false, true})
+    for (const int type : {2, 3})
+      for (const std::size_t coefficients : {4U, 7U}) {
+        const SpkPolynomials of =
+            polynomials_of(made::chebyshev(type, 301, 399, -20.0, 10.0, 6, coefficients, cubic_km), big);
+        EXPECT_EQ(of.target, 301);
+        EXPECT_EQ(of.centre, 399);
+        EXPECT_EQ(of.frame, 1);
+        for (double et_s = -20.0; et_s <= 40.0; et_s += 0.625) {
+          const SpkMotion motion = of.at(et_s);
+          const auto km = cubic_km(et_s);
+          for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(motion.position_m[c], 1000.0 * km[static_cast<std::size_t>(c)], 1e-8) << et_s;
+          EXPECT_NEAR(motion.velocity_m_s.x(), 100.0, 1e-8);
+          EXPECT_NEAR(motion.velocity_m_s.y(), 200.0 * et_s / 10.0, 1e-8);
+          EXPECT_NEAR(motion.velocity_m_s.z(), 150.0 * et_s * et_s / 100.0 - 100.0, 1e-8);
+        }
+      }
+}
+
+// What runs backwards has the same places and the opposite velocities.
+TEST(SpiceSpk, PolynomialsAreTheSameBackwards) {
+  const auto turning_km = [](double et_s) {
+    return std::array<double, 3>{std::cos(et_s / 30.0), std::sin(et_s / 30.0), std::sin(et_s / 50.0)};
+  };
+  const SpkPolynomials forth =
+      polynomials_of(made::chebyshev(2, 301, 399, 5.0, 20.0, 5, 12, turning_km), true);
+  const SpkPolynomials back = polynomials_of(
+      made::chebyshev(2, 301, 399, -105.0, 20.0, 5, 12, [&](double et_s) { return turning_km(-et_s); }),
+      true);
+  for (double et_s = 5.0; et_s <= 105.0; et_s += 0.5) {
+    const SpkMotion there = forth.at(et_s), mirrored = back.at(-et_s);
+    EXPECT_LT((there.position_m - mirrored.position_m).norm(), 1e-6) << et_s;
+    EXPECT_LT((there.velocity_m_s + mirrored.velocity_m_s).norm(), 1e-6) << et_s;
+  }
+}
+
+// A step between two intervals is the later one's.
+TEST(SpiceSpk, TheLaterIntervalSaysWhereTwoMeet) {
+  made::Array array = made::chebyshev(2, 301, 399, 0.0, 10.0, 2, 1, [](double et_s) {
+    return std::array<double, 3>{et_s < 10.0 ? 1.0 : 2.0, 0.0, 0.0};
+  });
+  const SpkPolynomials of = polynomials_of(array, false);
+  EXPECT_EQ(of.at(std::nextafter(10.0, 0.0)).position_m.x(), 1000.0);
+  EXPECT_EQ(of.at(10.0).position_m.x(), 2000.0);
+  EXPECT_EQ(of.at(20.0).position_m.x(), 2000.0);
+}
+
+TEST(SpiceSpk, PolynomialsThatCanNotBe) {
+  const auto changed = [](auto change) {
+    made::Array array = made::chebyshev(2, 301, 399, 0.0, 10.0, 3, 4, cubic_km);
+    change(array);
+    return made::daf("DAF/SPK ", {array}, true);
+  };
+  using Array = made::Array;
+  const std::size_t last = 3 * 14;  // first of the four words behind the intervals
+  ASSERT_EQ(first_fault(changed([](Array&) {})), "");
+  for (const double count : {4.0, 2.0, 0.0, -3.0, 2.5, 1e300, double(NAN)})
+    expect_fault(changed([&](Array& a) { a.words[last + 3] = count; }),
+                 "byte 3432: segment \"made of a series\": the number of intervals does not fit");
+  for (const double words : {13.0, 15.0, 0.0, -1.0, double(NAN), double(INFINITY)})
+    expect_fault(changed([&](Array& a) { a.words[last + 2] = words; }),
+                 "the number of intervals does not fit");
+  for (const double length : {0.0, -10.0, double(NAN), double(INFINITY)})
+    expect_fault(changed([&](Array& a) { a.words[last + 1] = length; }),
+                 "byte 3416: segment \"made of a series\": the length of the intervals must be above 0 s");
+  for (const double first : {double(NAN), 1e300, -double(INFINITY)})
+    expect_fault(changed([&](Array& a) { a.words[last] = first; }), "a time is no number or beyond 1e12 s");
+  for (const double moved : {1.0, double(NAN), double(INFINITY)}) {
+    expect_fault(changed([&](Array& a) { a.words[14] = moved; }),
+                 "byte 3184: segment \"made of a series\": an interval is not where");
+    expect_fault(changed([&](Array& a) { a.words[15] = moved; }), "an interval is not where");
+  }
+  for (const double coefficient : {double(NAN), -double(INFINITY), 1e13})
+    expect_fault(changed([&](Array& a) { a.words[15 + 5] = coefficient; }),
+                 "byte 3232: segment \"made of a series\": a coefficient is no number or beyond");
+  expect_fault(changed([](Array& a) { a.numbers[0] = -1.0; }), "the segment's times go beyond its intervals");
+  expect_fault(changed([](Array& a) { a.numbers[1] = 31.0; }), "the segment's times go beyond its intervals");
+  expect_fault(changed([](Array& a) { std::swap(a.numbers[0], a.numbers[1]); }), "go beyond its intervals");
+  expect_fault(changed([](Array& a) { a.whole[3] = 3; }), "the number of coefficients does not fit");
+  expect_fault(changed([](Array& a) { a.words.resize(4); }), "the segment has no interval");
 }
 
 CkSegment attitudes(const made::Array& array, bool big) {
