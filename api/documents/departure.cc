@@ -59,6 +59,7 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
       moment.fault(azimuth ? "earth_elevation_deg" : "earth_azimuth_deg",
                    "the Earth's direction has an azimuth and an elevation");
     if (azimuth && elevation) sample.earth = earth;
+    moment.number("sun_distance_au", kOptional, {"au", 0.1, 100.0}, sample.sun_distance_au);
     with_earth += sample.earth ? 1 : 0;
     moment.refuse_unknown();
     if (object.faults().size() == before && !departure.table.empty() &&
@@ -187,21 +188,25 @@ void write_departure(Writer& w, const DepartureRequest& departure) {
   if (rules.min_earth_rad) w.angle_deg("min_earth_deg", *rules.min_earth_rad);
   if (rules.light_left_s) w.exact("light_left_h", *rules.light_left_s / 3600.0);
   if (rules.arrive_by) write_time(w, "arrive_by", *rules.arrive_by);
-  if (!departure.table.empty()) {
-    w.key("sky").begin_array();
-    for (const sky::SkySample& sample : departure.table) {
-      w.begin_object();
-      write_time(w, "at", sample.utc_ms);
-      w.angle_deg("sun_azimuth_deg", sample.sun.azimuth_rad);
-      w.angle_deg("sun_elevation_deg", sample.sun.elevation_rad);
-      if (sample.earth)
-        w.angle_deg("earth_azimuth_deg", sample.earth->azimuth_rad)
-            .angle_deg("earth_elevation_deg", sample.earth->elevation_rad);
-      w.end_object();
-    }
-    w.end_array();
-  }
+  if (!departure.table.empty()) write_sky(w.key("sky"), departure.table);
   w.end_object();
+}
+
+void write_sky(Writer& w, const std::vector<sky::SkySample>& moments) {
+  constexpr double kUsual_au = 1.0;
+  w.begin_array();
+  for (const sky::SkySample& moment : moments) {
+    w.begin_object();
+    write_time(w, "at", moment.utc_ms);
+    w.angle_deg("sun_azimuth_deg", moment.sun.azimuth_rad);
+    w.angle_deg("sun_elevation_deg", moment.sun.elevation_rad);
+    if (moment.earth)
+      w.angle_deg("earth_azimuth_deg", moment.earth->azimuth_rad)
+          .angle_deg("earth_elevation_deg", moment.earth->elevation_rad);
+    if (moment.sun_distance_au != kUsual_au) w.exact("sun_distance_au", moment.sun_distance_au);
+    w.end_object();
+  }
+  w.end_array();
 }
 
 void write_departures(Writer& w, const planner::Departures& departures) {

@@ -316,7 +316,9 @@ TEST(SpiceSpk, PolynomialsThatCanNotBe) {
   expect_fault(changed([](Array& a) { a.numbers[0] = -1.0; }), "the segment's times go beyond its intervals");
   expect_fault(changed([](Array& a) { a.numbers[1] = 31.0; }), "the segment's times go beyond its intervals");
   expect_fault(changed([](Array& a) { std::swap(a.numbers[0], a.numbers[1]); }), "go beyond its intervals");
-  expect_fault(changed([](Array& a) { a.whole[3] = 3; }), "the number of coefficients does not fit");
+  made::Array five = made::chebyshev(2, 301, 399, 0.0, 10.0, 3, 5, cubic_km);
+  five.whole[3] = 3;
+  expect_fault(made::daf("DAF/SPK ", {five}, true), "the number of coefficients does not fit");
   expect_fault(changed([](Array& a) { a.words.resize(4); }), "the segment has no interval");
 }
 

@@ -2,44 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 #include <utility>
 
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/exit_status.h"
+#include "server/cli/inquiry/kernel_files.h"
 #include "server/cli/terminal/text_table.h"
 #include "steps/slip_steps_csv.h"
 #include "steps/steps_from_spice.h"
 
 namespace slipway::server {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;
-
-Result<std::vector<std::string>> read_files(const std::vector<std::string>& paths) {
-  std::vector<std::string> bytes;
-  std::vector<Fault> faults;
-  for (const std::string& path : paths) {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream)
-      faults.push_back({path, "there is no such file, or it can't be read"});
-    else if (size > kMaxFileBytes)
-      faults.push_back({path, fmt::format("{} bytes, must be {} at most", size, kMaxFileBytes)});
-    else
-      bytes.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  }
-  if (!faults.empty())
-    return fail(ErrorCode::kUnreadableData, "the SPICE kernels can't be read", std::move(faults));
-  return bytes;
-}
 
 std::string left_out_words(const steps::SpiceStepSummary& s) {
   TextTable table({"left out", "number", "because"});
@@ -83,12 +56,9 @@ std::string import_words(const steps::SpiceSteps& found, const std::string& out)
 }  // namespace
 
 int import_spice(const SpiceImportCommand& options) {
-  const auto bytes = read_files(options.kernels);
-  if (!bytes) return refuse_unreadable(bytes.error());
-  std::vector<steps::KernelBytes> kernels;
-  for (std::size_t k = 0; k < bytes->size(); ++k)
-    kernels.push_back({fs::path(options.kernels[k]).filename().string(), (*bytes)[k]});
-  const auto found = steps::steps_from_spice(kernels);
+  const auto files = KernelFiles::read(options.kernels);
+  if (!files) return refuse_unreadable(files.error());
+  const auto found = steps::steps_from_spice(files->kernels());
   if (!found) return refuse_unreadable(found.error());
   if (found->steps.empty())
     return refuse_unreadable({ErrorCode::kUnreadableData,

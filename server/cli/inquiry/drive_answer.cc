@@ -98,6 +98,34 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
   return {};
 }
 
+Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOption* start) {
+  if (!drive.depart || std::none_of(drive.sky.begin(), drive.sky.end(), is_kernel_file)) return {};
+  const auto refused = [](std::string why, std::vector<Fault> faults = {}) {
+    return fail(ErrorCode::kInvalidRequest, std::move(why), std::move(faults));
+  };
+  if (start == nullptr)
+    return refused("a sky of kernels is made over the place where the drive starts: give --start");
+  const auto times = time_span("--depart", *drive.depart);
+  if (!times) return fail(times.error());
+  const auto service = inquiry(ask);
+  if (!service) return fail(service.error());
+  const auto map = map_of(**service, drive.terrain);
+  if (!map) return fail(map.error());
+  const auto degrees =
+      dem::BodyDegrees(map->crs_wkt, map->body, map->extent).to_degrees({start->x_m, start->y_m});
+  if (!degrees)
+    return refused(fmt::format("--sky: the start ({:g}, {:g}) has no longitude and latitude on the map of {}",
+                               start->x_m, start->y_m, drive.terrain));
+  constexpr double kBehind_h = 240.0;
+  constexpr std::size_t kMostMoments = 4000;  // a request has a mebibyte at most
+  const double behind_h = kBehind_h + light_left_h(drive.day);
+  auto moments = sky_of_kernels(drive.sky, map->body, *degrees, times->from_ms, times->to_ms,
+                                times->to_ms + std::llround(3.6e6 * behind_h), kMostMoments);
+  if (!moments) return refused("--sky: " + moments.error().detail, moments.error().faults);
+  drive.sky_of_kernels = *std::move(moments);
+  return {};
+}
+
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view, bool why),

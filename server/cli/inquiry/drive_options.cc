@@ -127,8 +127,9 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
   command
       .add_option(
           "--sky", drive.sky,
-          "file with the directions of sun and Earth, as the list sky of a departure; on Mars they are "
-          "computed where it is not given")
+          "directions of sun and Earth: a file with the list sky of a departure, or SPICE kernels of positions "
+          "(SPK, as de440s.bsp) and constants (text PCK) of which it is made; on Mars they are computed where it "
+          "is not given")
       ->needs(depart);
 }
 

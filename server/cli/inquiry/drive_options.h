@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sky/sky.h"
+
 namespace CLI {
 class App;
 }
@@ -37,7 +39,8 @@ struct DriveOptions {
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;
   std::optional<std::string> depart;           // "FROM" or "FROM..TO"
-  std::string sky;                             // a file
+  std::vector<std::string> sky;                // a file with a table, or kernels
+  std::vector<sky::SkySample> sky_of_kernels;  // what --sky gave, where these were kernels; see make_sky()
   std::vector<std::string> day;                // "charge_percent=80": a key of a departure
   std::vector<std::string> keep_out, keep_in;  // "x,y x,y x,y" or a GeoJSON file
   std::vector<std::string> failed;             // "rf=locked"

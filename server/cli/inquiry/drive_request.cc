@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "api/documents/departure.h"
 #include "api/documents/drive_so_far.h"
 #include "api/files/soil_file.h"
 #include "api/files/telemetry_csv.h"
@@ -88,25 +89,24 @@ Result<void> write_files(Writer& w, const DriveOptions& drive) {
 
 Result<void> write_departure(Writer& w, const DriveOptions& drive) {
   if (!drive.depart) return {};
-  const std::size_t dots = drive.depart->find("..");
-  const std::string from = drive.depart->substr(0, dots),
-                    to = dots == std::string::npos ? from : drive.depart->substr(dots + 2);
-  for (const std::string& time : {from, to})
-    if (!utc_of_text(time))
-      return fail(Error{ErrorCode::kInvalidRequest,
-                        fmt::format("--depart {}: \"{}\" is no time; give FROM..TO, such as "
-                                    "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
-                                    *drive.depart, time),
-                        {}});
-  w.key("departure").begin_object().text("from", from).text("to", to);
+  const auto times = time_span("--depart", *drive.depart);
+  if (!times) return fail(times.error());
+  w.key("departure").begin_object().text("from", times->from).text("to", times->to);
   for (const std::string& setting : drive.day) write_setting(w, setting);
-  if (!drive.sky.empty()) {
-    const auto bytes = read_request(drive.sky);
+  if (!drive.sky_of_kernels.empty()) {
+    api::json::write_sky(w.key("sky"), drive.sky_of_kernels);
+  } else if (!drive.sky.empty()) {
+    if (drive.sky.size() > 1)
+      return fail(ErrorCode::kInvalidRequest,
+                  fmt::format("--sky has {} files, of which none is a SPICE kernel: a table is one file",
+                              drive.sky.size()));
+    const std::string& file = drive.sky.front();
+    const auto bytes = read_request(file);
     if (!bytes) return fail(bytes.error());
     const auto moments = api::json::parse(*bytes);
     if (!moments) {
       Error error = moments.error();
-      error.detail = drive.sky + ": " + error.detail;
+      error.detail = file + ": " + error.detail;
       return fail(std::move(error));
     }
     write_value(w.key("sky"), *moments);
@@ -121,6 +121,20 @@ void write_place(Writer& w, const PlaceOption& place) {
   w.begin_object().exact("x_m", place.x_m).exact("y_m", place.y_m);
   if (place.yaw_deg) w.exact("yaw_deg", *place.yaw_deg);
   w.end_object();
+}
+
+Result<TimeSpan> time_span(std::string_view option, const std::string& text) {
+  const std::size_t dots = text.find("..");
+  TimeSpan span{text.substr(0, dots), text.substr(dots == std::string::npos ? 0 : dots + 2)};
+  for (const auto& [time, into] : {std::pair{&span.from, &span.from_ms}, {&span.to, &span.to_ms}}) {
+    const auto at = utc_of_text(*time);
+    if (!at)
+      return fail(ErrorCode::kInvalidRequest, fmt::format("{} {}: \"{}\" is no time; give FROM..TO, such as "
+                                                          "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
+                                                          option, text, *time));
+    *into = *at;
+  }
+  return span;
 }
 
 Result<void> write_drive(Writer& w, const DriveOptions& drive) {

@@ -1,12 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "api/json/writer.h"
 #include "core/result.h"
 #include "server/cli/inquiry/drive_options.h"
 
 namespace slipway::server {
+
+// "FROM..TO", or one time for both.
+struct TimeSpan {
+  std::string from, to;
+  std::int64_t from_ms = 0, to_ms = 0;  // of UTC since 1970
+};
+// Errors: invalid_request with the option's name.
+Result<TimeSpan> time_span(std::string_view option, const std::string& text);
 
 void write_place(api::json::Writer& w, const PlaceOption& place);
 
