@@ -55,6 +55,12 @@ Result<std::string> check_request(const CheckOptions& options) {
   return w.take();
 }
 
+// Where the drive starts; null where the command line does not say.
+const PlaceOption* start_of(const CheckOptions& options) {
+  if (options.start) return &*options.start;
+  return options.path.empty() ? nullptr : &options.path.front();
+}
+
 // Of the commands of a file: what is given on the command line stands over what it says.
 int check_file(CheckOptions options, const Pictures& pictures) {
   const auto bytes = read_request(options.commands_file);
@@ -63,6 +69,14 @@ int check_file(CheckOptions options, const Pictures& pictures) {
   if (!file) return refuse(file.error());
   if (!options.names_terrain && file->names("terrain")) options.drive.terrain.clear();
   if (!options.names_rover && file->names("rover")) options.drive.rover.clear();
+  DriveOptions over_file = options.drive;
+  if (over_file.terrain.empty()) over_file.terrain = file->terrain();
+  const auto starts = file->start();
+  const PlaceOption* const start = start_of(options);
+  if (const auto made = make_sky(options.ask, over_file, start == nullptr && starts ? &*starts : start);
+      !made)
+    return refuse(made.error());
+  options.drive.sky_of_kernels = std::move(over_file.sky_of_kernels);
   const auto given = check_request(options);
   if (!given) return refuse(given.error());
   return ask_and_print(options.ask, pictures, file->request_with(*given), &Inquiry::check, &check_table,
@@ -84,6 +98,9 @@ int check(const CheckOptions& given) {
     if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
       return refuse(brought.error());
   }
+  if (options.request.empty() && options.commands_file.empty())
+    if (const auto made = make_sky(options.ask, options.drive, start_of(options)); !made)
+      return refuse(made.error());
   Pictures pictures = pictures_of(options.drive);
   pictures.report = options.report;
   if (!options.commands_file.empty()) return check_file(std::move(options), pictures);

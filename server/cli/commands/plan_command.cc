@@ -85,6 +85,10 @@ int plan(const PlanOptions& given) {
     if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
       return refuse(brought.error());
   }
+  if (options.request.empty())
+    if (const auto made = make_sky(options.ask, options.drive, options.start ? &*options.start : nullptr);
+        !made)
+      return refuse(made.error());
   const auto request_of = [](const PlanOptions& o) {
     return o.request.empty() ? plan_request(o) : read_request(o.request);
   };
@@ -101,7 +105,12 @@ int plan(const PlanOptions& given) {
   return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status);
 }
 
-int sol(const PlanOptions& options) {
+int sol(const PlanOptions& given) {
+  PlanOptions options = given;
+  if (options.request.empty())
+    if (const auto made = make_sky(options.ask, options.drive, options.start ? &*options.start : nullptr);
+        !made)
+      return refuse(made.error());
   const auto request = options.request.empty() ? plan_request(options) : read_request(options.request);
   Pictures pictures;
   pictures.report = options.report;

@@ -47,6 +47,11 @@ int predict(const PredictOptions& given) {
     if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
       return refuse(brought.error());
   }
+  if (options.request.empty())
+    if (const auto made =
+            make_sky(options.ask, options.drive, options.path.empty() ? nullptr : &options.path.front());
+        !made)
+      return refuse(made.error());
   Pictures pictures = pictures_of(options.drive);
   pictures.history = options.plot;
   return ask_and_print(options.ask, pictures,

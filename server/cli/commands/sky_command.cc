@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "api/departure_setting.h"
+#include "api/documents/departure.h"
 #include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "api/place_sky.h"
@@ -22,6 +25,7 @@
 #include "server/cli/inquiry/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"
 #include "server/cli/inquiry/data_option.h"
+#include "server/cli/inquiry/kernel_files.h"
 #include "server/cli/terminal/terminal_progress.h"
 
 namespace slipway::server {
@@ -56,7 +60,7 @@ Result<Place> place_of(const SkyOptions& options) {
   place.site = found->second;
   const dem::ElevationInfo& info = place.site->info();
   const dem::Extent extent = info.geometry.extent();
-  if (place.degrees || api::why_no_sky(*place.site)) return place;
+  if (place.degrees || (options.sky.empty() && api::why_no_sky(*place.site))) return place;
   const dem::MapPlace on_map = options.place ? dem::MapPlace{options.place->x_m, options.place->y_m}
                                              : dem::MapPlace{0.5 * (extent.west_m + extent.east_m),
                                                              0.5 * (extent.south_m + extent.north_m)};
@@ -68,16 +72,52 @@ struct Answer {
   std::int64_t utc_ms = 0;
   Place place;
   std::optional<std::vector<double>> horizon_rad = {};
+  std::string body = {};                                  // of what kernels say:
+  std::optional<sky::SkySample> by_kernels = {};          // at that time
+  std::optional<std::vector<sky::SkySample>> table = {};  // from then on
 };
+
+using Bearings = std::initializer_list<std::pair<std::string_view, sky::Bearing>>;
+
+std::string bearing_lines(const Bearings& bearings) {
+  std::string out;
+  for (const auto& [name, bearing] : bearings)
+    out += fmt::format("{}: azimuth {:.2f} deg, elevation {:.2f} deg\n", name,
+                       deg_from_rad(bearing.azimuth_rad), deg_from_rad(bearing.elevation_rad));
+  return out;
+}
+
+// What kernels say, in an object that is open and in words.
+std::string printed_kernels(api::json::Writer& w, const Answer& answer) {
+  const sky::SkySample& seen = *answer.by_kernels;
+  w.text("body", answer.body).significant("sun_distance_au", seen.sun_distance_au);
+  for (const auto& [name, bearing] : Bearings{{"sun", seen.sun}, {"earth", seen.earth.value()}})
+    w.key(name)
+        .begin_object()
+        .significant("azimuth_deg", deg_from_rad(bearing.azimuth_rad))
+        .significant("elevation_deg", deg_from_rad(bearing.elevation_rad))
+        .end_object();
+  std::string out =
+      fmt::format("{} at {:.4f} deg east, {:.4f} deg north: {:.5f} au from the sun\n", answer.body,
+                  answer.place.degrees->x, answer.place.degrees->y, seen.sun_distance_au) +
+      bearing_lines({{"Sun", seen.sun}, {"Earth", *seen.earth}});
+  if (answer.table)
+    out += fmt::format("Table: {} moments from {} to {}\n", answer.table->size(),
+                       utc_text(answer.table->front().utc_ms), utc_text(answer.table->back().utc_ms));
+  return out;
+}
 
 std::string printed(const Answer& answer, bool json) {
   api::json::Writer w;
   w.begin_object().text("format", "sky/1").text("at", utc_text(answer.utc_ms));
   std::string out = fmt::format("At {} (UTC)\n", utc_text(answer.utc_ms));
-  if (answer.place.degrees) {
-    const api::SkyMoment moment = api::sky_moment(answer.utc_ms, *answer.place.degrees);
+  if (answer.place.degrees)
     w.significant("longitude_deg", answer.place.degrees->x)
         .significant("latitude_deg", answer.place.degrees->y);
+  if (answer.by_kernels) {
+    out += printed_kernels(w, answer);
+  } else if (answer.place.degrees) {
+    const api::SkyMoment moment = api::sky_moment(answer.utc_ms, *answer.place.degrees);
     api::write_sky_moment(w, moment);
     const auto clock = [](double hours) {
       const long seconds = std::lround(3600.0 * hours);
@@ -87,9 +127,7 @@ std::string printed(const Answer& answer, bool json) {
         "Mars at {:.4f} deg east, {:.4f} deg north: Ls {:.3f} deg, local mean solar time {}, true {}\n",
         answer.place.degrees->x, answer.place.degrees->y, deg_from_rad(moment.time.season_rad),
         clock(moment.time.mean_solar_h), clock(moment.time.true_solar_h));
-    for (const auto& [name, bearing] : {std::pair{"Sun", &moment.sun}, {"Earth", &moment.earth}})
-      out += fmt::format("{}: azimuth {:.2f} deg, elevation {:.2f} deg\n", name,
-                         deg_from_rad(bearing->azimuth_rad), deg_from_rad(bearing->elevation_rad));
+    out += bearing_lines({{"Sun", moment.sun}, {"Earth", moment.earth}});
   }
   if (answer.horizon_rad) {
     w.key("horizon_deg").begin_array();
@@ -107,16 +145,43 @@ std::string printed(const Answer& answer, bool json) {
   return json ? w.take() + "\n" : out;
 }
 
-Result<std::string> look(const SkyOptions& options) {
+Result<std::int64_t> time_of(std::string_view option, const std::string& text) {
+  const auto at = utc_of_text(text);
+  if (!at)
+    return fail(ErrorCode::kInvalidRequest,
+                fmt::format("{} {} is no time of UTC such as 2026-07-01T12:00:00Z", option, text));
+  return *at;
+}
+
+// Of an answer whose place is known in degrees.
+Result<void> look_into_kernels(const SkyOptions& options, Answer& answer) {
+  answer.body = answer.place.site ? answer.place.site->info().body : options.body;
+  const auto sky = read_kernel_sky(options.sky, answer.body);
+  if (!sky) return fail(sky.error());
+  const steps::SkyPlace place{rad_from_deg(answer.place.degrees->x), rad_from_deg(answer.place.degrees->y)};
+  const auto seen = sky->over(place, answer.utc_ms);
+  if (!seen) return fail(seen.error());
+  answer.by_kernels = *seen;
+  if (options.table.empty()) return {};
+  const auto until = time_of("--until", options.until.value_or(""));
+  if (!until) return fail(until.error());
+  if (*until < answer.utc_ms) return fail(ErrorCode::kInvalidRequest, "--until is before --at");
+  auto moments = sky->table(place, answer.utc_ms, *until, *until, kMostMoments);
+  if (!moments) return fail(moments.error());
+  answer.table = *std::move(moments);
+  return {};
+}
+
+Result<Answer> look(const SkyOptions& options) {
   Answer answer{.utc_ms = now_ms(), .place = {}};
   if (options.at) {
-    const auto at = utc_of_text(*options.at);
-    if (!at)
-      return fail(ErrorCode::kInvalidRequest,
-                  fmt::format("--at {} is no time of UTC such as 2026-07-01T12:00:00Z", *options.at));
+    const auto at = time_of("--at", *options.at);
+    if (!at) return fail(at.error());
     answer.utc_ms = *at;
   }
-  if (auto why = sky::why_not_known(answer.utc_ms)) return fail(ErrorCode::kInvalidRequest, std::move(*why));
+  if (options.sky.empty())
+    if (auto why = sky::why_not_known(answer.utc_ms))
+      return fail(ErrorCode::kInvalidRequest, *std::move(why));
   auto place = place_of(options);
   if (!place) return fail(place.error());
   answer.place = std::move(*place);
@@ -126,7 +191,12 @@ Result<std::string> look(const SkyOptions& options) {
                 answer.place.site ? api::why_no_sky(*answer.place.site)
                                         .value_or("the place has no longitude and latitude on this map")
                                   : std::string("give a place: --lonlat, or --terrain with --place"));
-  if (!wants_horizon) return printed(answer, options.json);
+  if (!options.sky.empty()) {
+    if (!answer.place.degrees)
+      return fail(ErrorCode::kInvalidRequest, "the place has no longitude and latitude on this map");
+    if (auto looked = look_into_kernels(options, answer); !looked) return fail(looked.error());
+  }
+  if (!wants_horizon) return answer;
   if (!answer.place.site)
     return fail(ErrorCode::kInvalidRequest, "a horizon is of a terrain: give --terrain");
   const dem::ElevationInfo& info = answer.place.site->info();
@@ -166,7 +236,15 @@ Result<std::string> look(const SkyOptions& options) {
                                           options.directions, 0, progress);
     if (!written) return fail(written.error());
   }
-  return printed(answer, options.json);
+  return answer;
+}
+
+// The list that a departure has as its "sky".
+std::vector<OutputFile> files_of(const SkyOptions& options, const Answer& answer) {
+  if (!answer.table) return {};
+  api::json::Writer w;
+  api::json::write_sky(w, *answer.table);
+  return {{options.table, w.take() + "\n"}};
 }
 
 }  // namespace
@@ -177,11 +255,26 @@ void add_sky_command(CLI::App& app, std::function<int()>& run) {
       app.add_subcommand("sky", "time, sun, Earth and the ground's horizon over a place");
   command->add_option("--at", options->at, "time of UTC, 2026-07-01T12:00:00Z; now where it is not given");
   command->add_option("--lonlat", options->lonlat,
-                      "a place on Mars: east longitude,planetocentric latitude in degrees");
+                      "a place on Mars, or --body: east longitude,planetocentric latitude in degrees");
   CLI::Option* const terrain =
       command->add_option("--terrain", options->terrain, "the terrain whose place or horizon is asked for");
   add_place(*command, "--place", options->place,
             "x,y in map metres; the middle of the terrain where it is not given");
+  CLI::Option* const kernels = command->add_option(
+      "--sky", options->sky,
+      "SPICE kernels that sun and Earth are taken from: positions (SPK, as de440s.bsp) and "
+      "where wanted constants (text PCK)");
+  command->add_option("--body", options->body, "whose place --lonlat is, Mars or Moon")
+      ->needs(kernels)
+      ->capture_default_str();
+  CLI::Option* const table =
+      command
+          ->add_option(
+              "--table", options->table,
+              "write sun and Earth from --at to --until to this file, as the list sky of a departure "
+              "(JSON)")
+          ->needs(kernels);
+  table->needs(command->add_option("--until", options->until, "the last time of --table, UTC")->needs(table));
   command
       ->add_flag("--horizon", options->horizon,
                  "print the horizon's elevation all around --place, from true north")
@@ -205,11 +298,15 @@ void add_sky_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--json", options->json, "print JSON (sky/1)");
   add_data_option(*command, options->data, "terrains");
   command->footer(
-      "Example: where Spirit landed, then\n  slipway sky --lonlat 175.298,-14.64 --at 2004-01-03T13:46:31Z");
+      "Example: where Spirit landed, then\n  slipway sky --lonlat 175.298,-14.64 --at 2004-01-03T13:46:31Z\n"
+      "and two days of sun and Earth near the Moon's south pole, for a request\n"
+      "  slipway sky --sky de440s.bsp --body Moon --lonlat 12.3,-88.6 --at 2027-01-10T00:00:00Z --until "
+      "2027-01-12T00:00:00Z --table sky.json");
   command->callback([options, &run] {
     run = [options] {
       const auto answer = look(*options);
-      return answer ? deliver({}, *answer) : refuse(answer.error());
+      if (!answer) return options->sky.empty() ? refuse(answer.error()) : refuse_unreadable(answer.error());
+      return deliver(files_of(*options, *answer), printed(*answer, options->json));
     };
   });
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/cli/inquiry/drive_options.h"
 
@@ -18,6 +19,10 @@ struct SkyOptions {
   std::string lonlat;             // "137.4,-4.6", east and planetocentric; empty: of the terrain's place
   std::string terrain;
   std::optional<PlaceOption> place;  // map metres
+  std::vector<std::string> sky;      // kernels; empty: by formulas, on Mars alone
+  std::string body = "Mars";         // of lonlat
+  std::string table;                 // a file for the moments of kernels, from `at` to `until`
+  std::optional<std::string> until;  // of UTC
   bool horizon = false;              // print it
   std::string horizon_map;           // a file to write
   int every = 0;                     // cells of the terrain to one of the map; 0: so that it has 2048 at most

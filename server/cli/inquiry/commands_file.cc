@@ -67,6 +67,22 @@ Result<CommandsFile> CommandsFile::read(std::string bytes, std::string name) {
   return file;
 }
 
+std::string CommandsFile::terrain() const {
+  const JsonValue* const name = request_.find("terrain");
+  return name != nullptr && name->is(JsonValue::Kind::kString) ? name->text : std::string();
+}
+
+std::optional<PlaceOption> CommandsFile::start() const {
+  const JsonValue* at = request_.find("start");
+  const JsonValue* const path = request_.find("path");
+  if (at == nullptr && path != nullptr && !path->elements.empty()) at = &path->elements.front();
+  if (at == nullptr) return std::nullopt;
+  const JsonValue *const x = at->find("x_m"), *const y = at->find("y_m");
+  if (x == nullptr || y == nullptr || !x->is(JsonValue::Kind::kNumber) || !y->is(JsonValue::Kind::kNumber))
+    return std::nullopt;
+  return PlaceOption{x->number, y->number, {}};
+}
+
 std::string CommandsFile::request_with(const std::string& given) const {
   return api::json::laid_over(request_, api::json::parse(given).value());
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/json/json_value.h"
 #include "core/result.h"
+#include "server/cli/inquiry/drive_options.h"
 
 namespace slipway::server {
 
@@ -19,6 +21,10 @@ class CommandsFile {
 
   // The file says it itself: "terrain", "rover".
   bool names(std::string_view key) const { return request_.find(key) != nullptr; }
+  // What it says of the terrain and where the drive starts: "start", or the first place of "path". Empty
+  // where it says neither, or not so that the request would be taken.
+  std::string terrain() const;
+  std::optional<PlaceOption> start() const;
   // The request of the check, with another's members laid over it.
   std::string request_with(const std::string& given) const;
   // An error of that request: each fault that is the file's has its line and column there.

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/chart/drive_history.h"
@@ -12,8 +16,11 @@
 #include "api/export/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
+#include "core/angle.h"
 #include "dem/body_degrees.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/drive_request.h"
+#include "server/cli/inquiry/kernel_files.h"
 #include "server/cli/terminal/terminal_progress.h"
 
 namespace slipway::server {
@@ -73,6 +80,15 @@ std::optional<std::string> bring_place(PlaceOption& place, const api::json::Answ
   return std::nullopt;
 }
 
+// What --day says of the light that is to be left; a text that is no number is refused with the request.
+double light_left_h(const std::vector<std::string>& day) {
+  constexpr std::string_view kKey = "light_left_h=";
+  double hours = 0.0;
+  for (const std::string& setting : day)
+    if (setting.starts_with(kKey)) hours = std::strtod(setting.c_str() + kKey.size(), nullptr);
+  return std::clamp(hours, 0.0, 1000.0);
+}
+
 }  // namespace
 
 Pictures pictures_of(const DriveOptions& drive) {
@@ -117,10 +133,11 @@ Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOpt
     return refused(fmt::format("--sky: the start ({:g}, {:g}) has no longitude and latitude on the map of {}",
                                start->x_m, start->y_m, drive.terrain));
   constexpr double kBehind_h = 240.0;
-  constexpr std::size_t kMostMoments = 4000;  // a request has a mebibyte at most
-  const double behind_h = kBehind_h + light_left_h(drive.day);
-  auto moments = sky_of_kernels(drive.sky, map->body, *degrees, times->from_ms, times->to_ms,
-                                times->to_ms + std::llround(3.6e6 * behind_h), kMostMoments);
+  const auto sky = read_kernel_sky(drive.sky, map->body);
+  if (!sky) return refused("--sky: " + sky.error().detail, sky.error().faults);
+  auto moments =
+      sky->table({rad_from_deg(degrees->x), rad_from_deg(degrees->y)}, times->from_ms, times->to_ms,
+                 times->to_ms + std::llround(3.6e6 * (kBehind_h + light_left_h(drive.day))), kMostMoments);
   if (!moments) return refused("--sky: " + moments.error().detail, moments.error().faults);
   drive.sky_of_kernels = *std::move(moments);
   return {};

@@ -34,9 +34,9 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
                           const std::vector<PlaceOption*>& places);
 
 // Where --sky names kernels, makes the table of sun and Earth over the place where the drive starts: from the
-// first departure until ten days and the light that is to be left behind the last. `start` may be null where the
-// request's file or the telemetry says it; then it must be given. Errors: those of inquiry(); not_found; of reading and using
-// the kernels, as invalid_request.
+// first departure until ten days and the light that is to be left behind the last. `start` may be null where
+// the request's file or the telemetry says it; then it must be given. Errors: those of inquiry(); not_found;
+// of reading and using the kernels, as invalid_request.
 Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOption* start);
 
 // Asks, draws what is wanted, then prints the document or its table. `placed` says of an error of the

@@ -125,11 +125,12 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
                   "min_charge_percent, min_sun_deg, min_earth_deg, light_left_h, arrive_by")
       ->needs(depart);
   command
-      .add_option(
-          "--sky", drive.sky,
-          "directions of sun and Earth: a file with the list sky of a departure, or SPICE kernels of positions "
-          "(SPK, as de440s.bsp) and constants (text PCK) of which it is made; on Mars they are computed where it "
-          "is not given")
+      .add_option("--sky", drive.sky,
+                  "directions of sun and Earth: a file with the list sky of a departure, or SPICE kernels of "
+                  "positions "
+                  "(SPK, as de440s.bsp) and constants (text PCK) of which it is made; on Mars they are "
+                  "computed where it "
+                  "is not given")
       ->needs(depart);
 }
 
