@@ -134,6 +134,11 @@ TEST(DepartureRequest, ReadsBackAsItIsWritten) {
   };
   const std::string once = read(given);
   EXPECT_EQ(read(once), once);
+  EXPECT_EQ(once.find("sun_distance_au"), std::string::npos);
+  const std::string nearer = read(
+      std::string(given).replace(given.find(R"(,"sun_azimuth_deg":0)"), 0, R"(,"sun_distance_au":0.983)"));
+  EXPECT_EQ(read(nearer), nearer);
+  EXPECT_NE(nearer.find(R"("sun_distance_au":0.983)"), std::string::npos);
   EXPECT_NE(once.find("00:00:00.500Z"), std::string::npos);
 }
 
