@@ -20,6 +20,7 @@ constexpr double kMetresOfKilometre = 1000.0;
 // What lies beyond is neither in the solar system nor in its time: such numbers come of a damaged file.
 constexpr double kFarthestM = 1e15;
 constexpr double kMostSeconds = 1e12;
+constexpr double kShortestInterval_s = 1e-3;
 
 // How many states a segment says to have, where that agrees with its length; 0 where it does not.
 std::size_t states_of(int type, const std::vector<double>& words) {
@@ -115,8 +116,8 @@ Result<SpkPolynomials> read_spk_polynomials(const DafFile& daf, const DafArray& 
   const std::size_t intervals = count_within(last[3], size);
   if (!(std::abs(of.first_et_s) <= kMostSeconds))
     return daf.refuse(array, size - 4, "a time is no number or beyond 1e12 s");
-  if (!(of.interval_s > 0.0 && of.interval_s <= kMostSeconds))
-    return daf.refuse(array, size - 3, "the length of the intervals must be above 0 s, up to 1e12 s");
+  if (!(of.interval_s >= kShortestInterval_s && of.interval_s <= kMostSeconds))
+    return daf.refuse(array, size - 3, "the length of the intervals must be 0.001 s to 1e12 s");
   if (intervals == 0 || of.record_words != (size - kLastWords) / intervals ||
       of.record_words * intervals + kLastWords != size)
     return daf.refuse(array, size - 1, "the number of intervals does not fit the segment");
