@@ -1,5 +1,5 @@
 // What the page shows, in one place; parts of the page listen to the keys that they draw.
-import type { CostTerm, Campaign, Diagnosis, Effect, Job, Limits, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
+import type { CostTerm, Campaign, Diagnosis, Effect, Job, Limits, PlanRequest, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
 import type { RiskMap } from "./map/risk_types";
 import type { Result } from "./result";
 import type { Sol } from "./sky";
@@ -41,6 +41,13 @@ export interface Options {
   unknownSoil: string; // "": the belief about unknown ground
   draws: number | null; // of the ground; null: as many as the verdict needs
   departure: Departure; // what is asked of the day
+  sky: SkyTable | null; // that the opened request brought
+}
+
+/** Sun and Earth over the start, as a request has them: kept and sent again as they are, on the same terrain. */
+export interface SkyTable {
+  terrain: string;
+  moments: NonNullable<NonNullable<PlanRequest["departure"]>["sky"]>;
 }
 
 /** Texts of the form, by the request's keys; times in UTC. Without "from" nothing is asked. */
@@ -139,7 +146,7 @@ class Store {
     followed: nothingFollowed,
     terrain: null,
     drawn: nothingDrawn,
-    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null, departure: {} },
+    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null, departure: {}, sky: null },
     tool: "look",
     layers: { slope: 0, soil: 0, unknown: 0.6 },
     swipe: null,

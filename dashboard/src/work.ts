@@ -2,7 +2,7 @@
 import { ask, get, hasEnded, ServiceError, submit, type Asked, type CheckRequest, type Job, type PlanRequest, type RequestOf } from "./api/client";
 import { follow } from "./api/events";
 import { openDiagnosis, openWatch } from "./followed";
-import { formOf, planRequest, question, type Question } from "./panels/request";
+import { formOf, planRequest, question, skyOf, type Question } from "./panels/request";
 import { isAboutRoutes, readResult, roverOf, type Result } from "./result";
 import { store, type Place, type Ring } from "./state";
 
@@ -25,6 +25,7 @@ function takeRequest({ request, rover: driven }: Result): void {
       unknownSoil: asked.unknown_soil ?? "",
       draws: asked.draws ?? null,
       departure: formOf(asked.departure),
+      sky: skyOf({ terrain: asked.terrain ?? "", departure: asked.departure }),
       legend: asked.legend ?? options.legend,
       routes: asked.routes ?? options.routes,
       seed: asked.seed ?? options.seed,

@@ -229,6 +229,23 @@ test("work is cancelled, listed and opened again", async () => {
   await p.done();
 });
 
+test("the sky that a request brought stays in the form and is sent again as it is", async () => {
+  const sky = [0, 6, 12, 18].map((hour) => ({ at: new Date(Date.UTC(2027, 0, 10, hour)).toISOString(), sun_azimuth_deg: 3 * hour, sun_elevation_deg: 4.25, sun_distance_au: 0.9834 }));
+  const asked = { terrain: "lunar_south_pole_synthetic", rover: "mer-class", start: { x_m: 8500, y_m: 12500 }, goal: { x_m: 8520, y_m: 12510 }, routes: 1, draws: 32, departure: { from: sky[0].at, to: sky[1].at, min_sun_deg: 1, sky } };
+  const { id } = await (await fetch(`${service.url}/v1/plans`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(asked) })).json();
+  const p = await open(browser, `${service.url}/dashboard/#terrain=${asked.terrain}&rover=${asked.rover}&job=${id}`);
+  await p.verdict();
+  await p.click("#panel-plan [data-departure] summary");
+  assert.match(await p.textContent("[data-sky-table]"), /^Sun and Earth come from the table of the request that was opened, which is sent again as it is\. $/);
+  await p.fill("#plan-min_sun_deg", "2");
+  const [request] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/plans")), p.click('[data-do="plan"]')]);
+  const { departure } = request.postDataJSON();
+  assert.equal(departure.min_sun_deg, 2);
+  assert.deepEqual(departure.sky, sky);
+  await p.verdict();
+  await p.done();
+});
+
 test("a map of one's own is sent", async (t) => {
   const folder = mkdtempSync(join(tmpdir(), "slipway-sent-"));
   t.after(() => rmSync(folder, { recursive: true, force: true }));

@@ -3333,6 +3333,8 @@ export interface components {
                 earth_azimuth_deg?: number;
                 /** @description With every moment, or with none [deg] */
                 earth_elevation_deg?: number;
+                /** @description Of the body from the sun, 1 where it is absent; on Mars it is computed [au] */
+                sun_distance_au?: number;
             }[];
         };
         /** @description Sun and Earth over a place at some moments */

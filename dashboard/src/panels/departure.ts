@@ -1,7 +1,7 @@
 // When the drive may begin and what must hold on the way: what the form asks of the day.
 import { button, field, h } from "../dom";
 import type { Sol } from "../sky";
-import { store, type Departure, type State } from "../state";
+import { store, type Departure, type SkyTable, type State } from "../state";
 
 interface Asked {
   key: string;
@@ -22,8 +22,11 @@ const numbers: Asked[] = [
   { key: "every_min", words: "Listed every, min", lowest: 0.1, highest: 100_000, usual: "15" },
 ];
 
-/** Elsewhere a request brings a sky of its own, which a form has no room for. */
-export const hasSky = ({ terrain }: State): boolean => terrain?.terrain?.body === "Mars";
+/** The table of the opened request, if that was about this terrain. */
+export const skyTable = ({ options, terrain }: State): SkyTable | null => (options.sky && options.sky.terrain === terrain?.terrain?.name ? options.sky : null);
+
+/** Elsewhere than on Mars a request brings a sky of its own, which can't be typed into a form. */
+export const hasSky = (state: State): boolean => state.terrain?.terrain?.body === "Mars" || skyTable(state) !== null;
 
 /** Of which the windows may be asked. */
 export const solOnMap = ({ sol }: State): Sol | null => (sol && !sol.refused ? sol : null);
@@ -40,7 +43,10 @@ export function departureFields(state: State, id: string, change: (departure: De
     return field(words, input);
   };
   const sol = solOnMap(state);
+  const table = skyTable(state);
   return [
+    table && h("p", { class: "hint", "data-sky-table": true }, "Sun and Earth come from the table of the request that was opened, which is sent again as it is. ",
+      state.terrain?.terrain?.body === "Mars" ? button("Compute them instead", () => store.option({ sky: null }), { class: "quiet", "data-do": "no-sky-table" }) : null),
     time("from", "From (UTC)"),
     time("to", "To (UTC)"),
     sol && button("The sol on the map", () => store.option({ departure: { ...store.state.options.departure, from: minute(sol.from_ms), to: minute(sol.to_ms) } }), { class: "quiet", "data-do": "this-sol" }),

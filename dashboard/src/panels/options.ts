@@ -3,7 +3,7 @@ import { button, field, fill, folded, h, select } from "../dom";
 import { bareName, number, roverWords, sentence, wheelWords, words } from "../format";
 import { limits } from "../limits";
 import { store, type State } from "../state";
-import { departureFields, hasSky, solOnMap } from "./departure";
+import { departureFields, hasSky, skyTable, solOnMap } from "./departure";
 
 export function options(target: HTMLElement, id: string): void {
   const common = h("div");
@@ -29,7 +29,7 @@ export function options(target: HTMLElement, id: string): void {
   }));
   let drawn = "";
   store.on(["terrain", "options", "sol"], (state) => {
-    const now = `${hasSky(state)} ${solOnMap(state) !== null}`;
+    const now = `${hasSky(state)} ${skyTable(state) !== null} ${solOnMap(state) !== null}`;
     if (now === drawn && state.options.departure === typed) return;
     drawn = now;
     typed = state.options.departure;

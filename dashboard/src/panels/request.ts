@@ -1,8 +1,8 @@
 // What is asked for, as the API takes it.
 import type { CheckRequest, Limits, MapRequest, PlanRequest } from "../api/client";
 import type { RiskKind } from "../map/risk_types";
-import { store, type Departure, type Stale, type State } from "../state";
-import { hasSky } from "./departure";
+import { store, type Departure, type SkyTable, type Stale, type State } from "../state";
+import { hasSky, skyTable } from "./departure";
 
 /** The limits that the form asks for: the chosen rules', with those that were moved. */
 function limitsOf(state: State): { limits?: Limits } {
@@ -51,15 +51,21 @@ const air = ["coldest_c", "warmest_c"];
 function departureOf(state: State): Pick<PlanRequest, "departure"> {
   const { from, to, arrive_by, ...numbers } = state.options.departure;
   if (!from || !hasSky(state)) return {};
+  const table = skyTable(state);
   const given = (of_air: boolean) => Object.fromEntries(Object.entries(numbers).filter(([key]) => air.includes(key) === of_air).map(([key, value]) => [key, Number(value)]));
   const of_air = given(true) as NonNullable<NonNullable<PlanRequest["departure"]>["air"]>;
-  return { departure: { from, ...(to ? { to } : {}), ...(arrive_by ? { arrive_by } : {}), ...given(false), ...(Object.keys(of_air).length > 0 ? { air: of_air } : {}) } };
+  return { departure: { from, ...(to ? { to } : {}), ...(arrive_by ? { arrive_by } : {}), ...given(false), ...(Object.keys(of_air).length > 0 ? { air: of_air } : {}), ...(table ? { sky: table.moments } : {}) } };
 }
 
 /** The same as the form has it. */
 export function formOf(departure: PlanRequest["departure"]): Departure {
   const { air: of_air, sky: _, ...rest } = departure ?? {};
   return Object.fromEntries(Object.entries({ ...rest, ...of_air }).map(([key, value]) => [key, String(value).replace(/\.000Z$/, "Z")]));
+}
+
+/** The table of sun and Earth that a request brought, with the terrain that it is of. */
+export function skyOf({ terrain, departure }: Pick<PlanRequest, "terrain" | "departure">): SkyTable | null {
+  return departure?.sky ? { terrain, moments: departure.sky } : null;
 }
 
 /** Without a goal it is no request yet. */
