@@ -27,7 +27,8 @@ struct Orientation {
   Eigen::Matrix3d fixed(double days) const;
 };
 
-// Mars without the terms of a revolution of the pole and of a year, which turn it by less than 0.003 deg.
+// Mars without the terms of a revolution of the pole and of a year, which turn it by less than 0.005 deg
+// until 2054.
 const Orientation& mars_orientation();
 // The Moon's mean Earth and polar axes, in which its maps are; within 0.006 deg of the Moon's own.
 const Orientation& moon_orientation();

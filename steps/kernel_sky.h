@@ -32,15 +32,15 @@ class KernelSky {
  public:
   // Kernels in any order, told by their content: positions (SPK) of the body, the sun and the Earth, and
   // constants (text PCK) with its pole and prime meridian, of which the last one says; without them these are
-  // the IAU's of 2015, see sky/orientation.h. Leap seconds (LSK) are built in and not looked at. `body`:
-  // "Mars" or "Moon". Errors: unreadable_data with the file and byte or line of all that is wrong;
-  // invalid_request with the body that is not known or not in the kernels.
+  // those of sky/orientation.h. Leap seconds (LSK) are built in and not looked at. `body`: "Mars" or "Moon".
+  // Errors: unreadable_data with the file and byte or line of all that is wrong; invalid_request for another
+  // body.
   static Result<KernelSky> read(std::span<const KernelBytes> files, std::string_view body);
 
   // Where sun and Earth are seen: as the light left them, and shifted by the body's way about the sun
-  // [Urban & Seidelmann 2013, chapter 7]. Elevations are over the level of the
-  // ellipsoid. The place is taken to lie on it: of the Earth over the Moon a height of 10 km is 0.0015 deg.
-  // Errors: invalid_request with the body and what the kernels have of it.
+  // [Urban & Seidelmann 2013, chapter 7]. Elevations are over the level of the ellipsoid. The place is taken
+  // to lie on it: of the Earth over the Moon a height of 10 km is 0.0015 deg. Errors: invalid_request with
+  // the body and what the kernels have of it.
   Result<sky::SkySample> over(const SkyPlace& place, std::int64_t utc_ms) const;
 
   // Moments from one time to another, at most `most` of them, so near that between them directions are within

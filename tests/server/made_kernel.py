@@ -53,7 +53,8 @@ def main(path, first_day, days):
     bodies = [(10, 0, lambda _: (0.0, 0.0, 0.0)), (399, 10, lambda day: by_elements(EARTH, day)),
               (4, 10, lambda day: by_elements(MARS, day)), (301, 399, moon)]
     segments = [segment(place, first_day, days) for _, _, place in bodies]
-    record = b"DAF/SPK " + struct.pack("<ii", 2, 6) + b" " * 60 + struct.pack("<iii", 2, 2, 0) + b"LTL-IEEE"
+    free = 3 * 128 + 1 + sum(map(len, segments))
+    record = b"DAF/SPK " + struct.pack("<ii", 2, 6) + b" " * 60 + struct.pack("<iii", 2, 2, free) + b"LTL-IEEE"
     record = record.ljust(699, b"\0") + b"FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP"
     summaries = struct.pack("<ddd", 0.0, 0.0, float(len(bodies)))
     word = 3 * 128 + 1
