@@ -179,11 +179,15 @@ void RequestCheck::departure(const DriveAssumptions& drive) {
   const DepartureRequest& of = *drive.departure;
   for (const auto& [given, key] : {std::pair{of.rules.min_charge.has_value(), "min_charge_percent"},
                                    {of.charge != 1.0, "charge_percent"},
-                                   {of.optical_depth != 0.0, "optical_depth"},
-                                   {of.air.has_value(), "air"}})
+                                   {of.optical_depth != 0.0, "optical_depth"}})
     if (given)
       add(ErrorCode::kInvalidRequest, fmt::format("/departure/{}", key),
           fmt::format("the file of {} has no power, of which a charge could be told", rover_->name));
+  if (of.air && !rover_->drive.thermal_resistance_k_w)
+    add(ErrorCode::kInvalidRequest, "/departure/air",
+        fmt::format(
+            "the file of {} has neither power with heaters nor a thermal_resistance_k_w of its motors",
+            rover_->name));
 }
 
 void RequestCheck::failed_wheels(const DriveAssumptions& drive) {

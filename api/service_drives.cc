@@ -50,6 +50,7 @@ Result<PlanAnswer> plan_within(const Service& service, const std::optional<dem::
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.start;
   problem.goal = request.goal;
+  problem.start_error = request.start_error;
   problem.waypoints = request.waypoints;
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;

@@ -50,13 +50,28 @@ std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& dep
                                                   const planner::DepartureRules& rules,
                                                   const sim::DrivePrediction& drive) {
   if (!rules.arrive_by) return std::nullopt;
-  const planner::TimedDrive& timed = departures.best ? *departures.best : departures.nearest;
+  const planner::TimedDrive& timed = departures.drive;
   if (timed.stations.empty() || timed.arrives_late_ms <= *rules.arrive_by) return std::nullopt;
   const planner::TimedStation* last = &timed.stations.front();
   for (const planner::TimedStation& at : timed.stations)
     if (at.late_ms <= *rules.arrive_by) last = &at;
   return place_at(drive, last->distance_m,
                   fmt::format("here the rover is at the slow pace at {}", utc_text(*rules.arrive_by)));
+}
+
+// The day of a way that begins where a drive is at the slow pace, with what is then left in the battery. It
+// is held against the same rules but for the arrival: that is the goal's, and who turns back doesn't come
+// there.
+DepartureRequest day_from(const DepartureRequest& day, const planner::TimedDrive& drive, double at_m) {
+  const auto station =
+      std::find_if(drive.stations.begin(), drive.stations.end(),
+                   [&](const planner::TimedStation& each) { return each.distance_m >= at_m - 1e-9; });
+  DepartureRequest later = day;
+  later.rules.arrive_by.reset();
+  if (station == drive.stations.end()) return later;
+  later.from_ms = later.to_ms = station->late_ms;
+  later.charge = std::clamp(station->charge_low, 0.0, 1.0);
+  return later;
 }
 
 // The way from a place back to the start, driven backwards.
@@ -108,7 +123,10 @@ Result<SolAnswer> run_sol(const Service& service, const PlanRequest& request, Pr
     answer.time_runs_out =
         place_when_time_is_over(*route.decision.departures, request.drive.departure->rules, drive);
   if (!answer.worst) return answer;
-  const CheckRequest back = back_from(request, drive, *answer.worst);
+  CheckRequest back = back_from(request, drive, *answer.worst);
+  if (route.decision.departures)
+    back.drive.departure =
+        day_from(*request.drive.departure, route.decision.departures->drive, answer.worst->at_m);
   if (back.path.size() < 2) return answer;
   planner::StageProgress backing(progress, "backing out of the worst place", kPlanned, 1.0);
   auto back_out = run_check(service, back, backing);

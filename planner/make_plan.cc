@@ -12,6 +12,7 @@
 
 #include "planner/candidate_drives.h"
 #include "planner/judge/advice.h"
+#include "planner/judge/displaced_starts.h"
 #include "planner/judge/fewer_routes.h"
 #include "planner/judge/plan_scout.h"
 #include "planner/judge/rank.h"
@@ -71,10 +72,9 @@ class Planning {
     }
     const Result<void> simulated = simulate(*proposal, plan);
     if (!simulated) return fail(simulated.error());
+    judge_day_and_start(plan);
     const Result<void> verified = verify(plan);
     if (!verified) return fail(verified.error());
-    const Result<void> timed = set_departures(plan);
-    if (!timed) return fail(timed.error());
     if (progress_.cancelled()) return cancelled();
     say_why_fewer(*proposal, plan);
     progress_.report("ranking", 0.98);
@@ -193,6 +193,22 @@ class Planning {
     return std::accumulate(legs.begin(), legs.end(), 0.0) >= kLongDrive_m;
   }
 
+  // When each route may be driven, and what becomes of it from other starts; one that a departure does not
+  // allow, or that hangs on its start, is ranked behind the others.
+  void judge_day_and_start(Plan& plan) {
+    if (!problem_.departure && !problem_.start_error) return;
+    const double end = problem_.verify > 0 ? kSimulatedUnverified : kSimulated;
+    StageProgress stage(progress_, "looking at its day and its start", end, end);
+    for (Route& route : plan.routes) {
+      add_departures(problem_, route.prediction, route.decision, stage);
+      if (!problem_.start_error) continue;
+      route.decision.starts =
+          drive_from_displaced_starts(problem_, route.commands, *problem_.start_error, stage);
+      if (route.decision.starts) judge_starts(*route.decision.starts, problem_.risk.bars, route.decision);
+    }
+    rank(plan);
+  }
+
   // Drives the best-ranked routes in the dynamic simulation. A route that it refutes is judged and ranked
   // anew, and what is best then is driven too, until the best one has been.
   Result<void> verify(Plan& plan) {
@@ -220,25 +236,19 @@ class Planning {
     Result<DynamicVerification> verified = verify_route(problem_, motions, {}, route.prediction, stage);
     if (!verified) return fail(verified.error());
     route.dynamic = std::move(*verified);
-    judge_outcome(problem_, route);
+    judge_anew(route);
     return {};
   }
 
-  // When each route may be driven; one that no departure allows is ranked behind the others.
-  Result<void> set_departures(Plan& plan) {
-    if (!problem_.departure) return {};
-    StageProgress stage(progress_, "looking for departures", kSimulated, kSimulated);
-    for (Route& route : plan.routes) add_departures(problem_, route.prediction, route.decision, stage);
-    rank(plan);
-    // What is first now is driven in motion too, where the best are.
-    for (std::size_t done = plan.routes.size(); problem_.verify > 0 && !plan.routes.empty(); ++done) {
-      Route& first = plan.routes.front();
-      if (first.dynamic || done > 2 * plan.routes.size()) return {};
-      if (auto driven = verify_one(done, first); !driven) return driven;
-      add_departures(problem_, first.prediction, first.decision, stage);
-      rank(plan);
-    }
-    return {};
+  // By its draws and its drive in motion, and by what is known of its day and its starts.
+  void judge_anew(Route& route) const {
+    const DriveVerdict before = std::move(route.decision);
+    judge_outcome(problem_, route);
+    DriveVerdict& decision = route.decision;
+    decision.departures = before.departures;
+    decision.starts = before.starts;
+    if (decision.departures) judge_departures(*decision.departures, decision);
+    if (decision.starts) judge_starts(*decision.starts, problem_.risk.bars, decision);
   }
 
   // What would make the first route better; only what was tried.

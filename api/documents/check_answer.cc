@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "api/documents/check_request.h"
 #include "api/documents/departure.h"
@@ -11,6 +12,7 @@
 #include "core/angle.h"
 #include "planner/judge/drive_verdict.h"
 #include "planner/judge/verdict_words.h"
+#include "planner/problem/displaced_start.h"
 
 namespace slipway::api::json {
 namespace {
@@ -70,6 +72,26 @@ void write_advice(Writer& w, const planner::Advice& advice) {
   w.end_object();
 }
 
+void write_starts(Writer& w, const planner::DisplacedStarts& displaced) {
+  const planner::DisplacedStart& worst = displaced.worst();
+  w.key("starts").begin_object().metres("position_m", displaced.error.position_m);
+  w.angle_deg("heading_deg", displaced.error.heading_rad);
+  w.whole("starts", static_cast<std::int64_t>(displaced.starts.size()));
+  for (const planner::Verdict each :
+       {planner::Verdict::kGo, planner::Verdict::kUnknown, planner::Verdict::kNoGo})
+    w.whole(planner::describe(each), static_cast<std::int64_t>(displaced.count(each)));
+  w.key("worst").begin_object().metres("ahead_m", worst.ahead_m).metres("left_m", worst.left_m);
+  w.angle_deg("turned_deg", worst.turned_rad).text("verdict", planner::describe(worst.verdict));
+  w.key("rule");
+  if (worst.rule)
+    write_judged_rule(w, *worst.rule);
+  else
+    w.null();
+  w.significant("max_slip_ratio", worst.max_slip_ratio);
+  if (worst.at) w.metres("x_m", worst.at->x_m).metres("y_m", worst.at->y_m);
+  w.end_object().end_object();
+}
+
 }  // namespace
 
 void write_decision(Writer& w, const planner::DriveVerdict& decision) {
@@ -80,6 +102,7 @@ void write_decision(Writer& w, const planner::DriveVerdict& decision) {
   for (const planner::Advice& advice : decision.advice) write_advice(w, advice);
   w.end_array();
   if (decision.departures) write_departures(w, *decision.departures);
+  if (decision.starts) write_starts(w, *decision.starts);
   w.end_object();
 }
 

@@ -126,6 +126,8 @@ void write_drive_with_stations(Writer& w, const planner::TimedDrive& drive) {
     w.significant("in_w", at.in_w).significant("out_w", at.out_w);
     w.significant("charge_percent", 100.0 * at.charge)
         .significant("charge_low_percent", 100.0 * at.charge_low);
+    if (at.motor_c && at.motor_slow_c)
+      w.significant("motor_c", *at.motor_c).significant("motor_slow_c", *at.motor_slow_c);
     w.end_object();
   }
   w.end_array().end_object();
@@ -218,8 +220,8 @@ void write_departures(Writer& w, const planner::Departures& departures) {
     w.end_object();
   }
   w.end_array().key("best");
-  if (departures.best)
-    write_drive_with_stations(w, *departures.best);
+  if (departures.is_kept())
+    write_drive_with_stations(w, departures.drive);
   else
     w.null();
   w.key("halt");
@@ -230,7 +232,7 @@ void write_departures(Writer& w, const planner::Departures& departures) {
         .end_object();
   else
     w.null();
-  if (!departures.best) write_drive_with_stations(w.key("nearest"), departures.nearest);
+  if (!departures.is_kept()) write_drive_with_stations(w.key("nearest"), departures.drive);
   w.key("tried").begin_array();
   for (const planner::TimedDrive& drive : departures.tried) {
     w.begin_object();

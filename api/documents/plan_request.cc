@@ -20,6 +20,16 @@ void read_weights(ObjectReader& reader, planner::Weights& weights) {
   object->refuse_unknown();
 }
 
+void read_start_error(ObjectReader& reader, std::optional<planner::StartError>& out) {
+  auto object = reader.object("start_error", kOptional);
+  if (!object) return;
+  planner::StartError& error = out.emplace();
+  object->number("position_m", kOptional, {"m", 0.0, RequestLimits::kStartError_m}, error.position_m);
+  object->angle_deg("heading_deg", kOptional, {"deg", 0.0, RequestLimits::kStartError_deg},
+                    error.heading_rad);
+  object->refuse_unknown();
+}
+
 constexpr planner::RankBy kRankBy[] = {planner::RankBy::kExpected, planner::RankBy::kCvar};
 
 void read_ranking(ObjectReader& reader, planner::Ranking& ranking) {
@@ -54,6 +64,7 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
     if (is_start) has_start = value != nullptr;
     if (value != nullptr) read_waypoint(*value, child_pointer("", key), *target, reading.faults);
   }
+  read_start_error(reader, request.start_error);
   for (const Element& element : reader.list("waypoints", kOptional, {0, RequestLimits::kWaypoints})) {
     read_waypoint(*element.value, element.pointer, request.waypoints.emplace_back(), reading.faults);
   }
@@ -77,6 +88,12 @@ std::string write_plan_request(const PlanRequest& request) {
   write_waypoint(w, request.start);
   w.key("goal");
   write_waypoint(w, request.goal);
+  if (request.start_error)
+    w.key("start_error")
+        .begin_object()
+        .exact("position_m", request.start_error->position_m)
+        .angle_deg("heading_deg", request.start_error->heading_rad)
+        .end_object();
   w.key("waypoints").begin_array();
   for (const planner::Waypoint& waypoint : request.waypoints) write_waypoint(w, waypoint);
   w.end_array();

@@ -72,6 +72,14 @@ std::string day_charts(const JsonValue& departures, const JsonValue& drive) {
   charts[2].series = {
       line("median pace", departure_hours(tried), of_each(tried, "least_charge_percent"), 0),
       line("worse pace", departure_hours(tried), of_each(tried, "least_charge_low_percent"), 1)};
+  if (!stations.elements.empty() && has(stations.elements.front(), "motor_c")) {
+    Chart& motor = charts.emplace_back();
+    motor.title = "Hottest drive motor";
+    motor.x.title = "way, m";
+    motor.y.title = "temperature, degC";
+    motor.series = {line("median pace", way, of_each(stations, "motor_c"), 0),
+                    line("slow pace", way, of_each(stations, "motor_slow_c"), 1)};
+  }
   return draw_charts("The day", charts);
 }
 
@@ -96,12 +104,26 @@ void add_day(ReportPage& page, const JsonValue& departures) {
         fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
                     "day. The commands hold no wait; give it between them.",
                     number(at(departures, "halt"), "hours"), number(at(departures, "halt"), "at_m")));
-  page.picture(
-      {"day", day_charts(departures, drive)},
-      "Left and middle: along the way from the departure above. Right: every departure that was tried");
+  page.picture({"day", day_charts(departures, drive)},
+               "Along the way from the departure above; \"By departure\": every departure that was tried");
   page.table({"rule of the day", "verdict"});
   for (const JsonValue& rule : at(drive, "rules").elements)
     page.row({text(rule, "words"), std::string(planner::verdict_words(text(rule, "verdict")))});
+}
+
+// The drive from other starts, where the start has an error.
+void add_start(ReportPage& page, const JsonValue& decision) {
+  if (!has(decision, "starts")) return;
+  const JsonValue& starts = at(decision, "starts");
+  page.section("If it does not start where it is said to");
+  for (const JsonValue& rule : at(decision, "rules").elements)
+    if (text(rule, "rule") == "start")
+      page.paragraph(
+          fmt::format("{}: {}.", planner::verdict_words(text(rule, "verdict")), text(rule, "words")));
+  page.table({"starts", "GO", "UNKNOWN", "NO-GO"});
+  page.row({fmt::format("{:.0f}", number(starts, "starts")), fmt::format("{:.0f}", number(starts, "go")),
+            fmt::format("{:.0f}", number(starts, "unknown")),
+            fmt::format("{:.0f}", number(starts, "no_go"))});
 }
 
 void add_places(ReportPage& page, const JsonValue& sol) {
@@ -120,10 +142,16 @@ void add_places(ReportPage& page, const JsonValue& sol) {
     page.paragraph("No draw of the ground halts the rover.");
   if (!has(sol, "back_out")) return;
   const JsonValue& back = at(sol, "back_out");
-  page.paragraph(
-      fmt::format("Backing out of it to the start is {}: {}.", planner::verdict_words(text(back, "verdict")),
-                  at(back, "reasons").elements.empty() ? std::string("no reason")
-                                                       : at(back, "reasons").elements.front().text));
+  const JsonValue& request = at(back, "request");
+  const std::string begun = has(request, "departure")
+                                ? fmt::format(", begun at the slow pace at {} with {:.0f} % in the battery,",
+                                              text(at(request, "departure"), "from"),
+                                              number(at(request, "departure"), "charge_percent"))
+                                : std::string();
+  page.paragraph(fmt::format(
+      "Backing out of it to the start{} is {}: {}.", begun, planner::verdict_words(text(back, "verdict")),
+      at(back, "reasons").elements.empty() ? std::string("no reason")
+                                           : at(back, "reasons").elements.front().text));
 }
 
 void add_commands(ReportPage& page, const JsonValue& route) {
@@ -166,6 +194,7 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
   json::write_value(w, plan);
   add_map(page, draw_route_map(catalogue, w.take()), "The routes of the plan, by slip");
   if (has(decision, "departures")) add_day(page, at(decision, "departures"));
+  add_start(page, decision);
   add_places(page, *sol);
   add_commands(page, route);
   return page.html();

@@ -11,6 +11,7 @@ namespace slipway::api {
 using json::at;
 using json::has;
 using json::JsonValue;
+using json::number;
 using json::text;
 
 void add_verdict_banner(ReportPage& page, const JsonValue& document) {
@@ -25,7 +26,12 @@ void add_advice(ReportPage& page, const JsonValue& decision) {
   page.section("What would change it");
   const auto& advice = at(decision, "advice").elements;
   for (const JsonValue& each : advice) page.item(text(each, "words"));
-  if (advice.empty()) page.item("Another way or another goal; no shorter drive and no scout drive does");
+  const JsonValue& starts = at(decision, "starts");
+  const bool hangs_on_start = number(starts, "go") < number(starts, "starts");
+  if (hangs_on_start)
+    page.item("To know better where the rover stands and how it is turned, before it drives");
+  if (advice.empty() && !hangs_on_start)
+    page.item("Another way or another goal; no shorter drive and no scout drive does");
   if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
     page.item("Other departures, or more charge: none of those asked for keeps the rules of the day");
 }

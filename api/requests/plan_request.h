@@ -61,6 +61,7 @@ struct PlanRequest {
   std::string terrain;
   std::string rover;
   planner::Waypoint start, goal;
+  std::optional<planner::StartError> start_error;
   std::vector<planner::Waypoint> waypoints;  // visited in order
   std::vector<planner::Polygon> keep_out;
   std::vector<planner::Polygon> keep_in;  // each an area that the rover's body must not leave
@@ -94,6 +95,7 @@ struct RequestLimits {
   static constexpr double kDepartureDays = 100.0;  // from the first to the last
   static constexpr std::size_t kSkyMoments = 20'000;
   static constexpr int kDepartures = 500;  // that are tried
+  static constexpr double kStartError_m = 20.0, kStartError_deg = 45.0;
   static constexpr int kDraws = 2000;
   static constexpr int kMaxSol = 1'000'000;
 };

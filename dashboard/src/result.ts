@@ -43,6 +43,8 @@ export interface Stations {
   at_ms?: number[];
   charge_percent?: Column;
   charge_low_percent?: Column;
+  motor_c?: Column; // where the air and the motor's thermal numbers are known
+  motor_slow_c?: Column;
   in_w?: Column;
   out_w?: Column;
   sun_over_horizon_deg?: Column;
@@ -114,6 +116,7 @@ function dayColumns({ departures }: Schemas["Decision"], at_m: number[]): Partia
     in_w: column((s) => s.in_w),
     out_w: column((s) => s.out_w),
     sun_over_horizon_deg: column((s) => s.sun_over_horizon_deg),
+    ...(along[0]!.motor_c === undefined ? {} : { motor_c: column((s) => s.motor_c!), motor_slow_c: column((s) => s.motor_slow_c!) }),
   };
 }
 

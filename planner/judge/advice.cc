@@ -7,6 +7,7 @@
 #include "planner/judge/deciding_draws.h"
 #include "planner/judge/drive_verdict.h"
 #include "planner/judge/verdict_words.h"
+#include "planner/problem/displaced_start.h"
 #include "planner/problem/terrain_ground.h"
 #include "planner/timing/departures.h"
 
@@ -42,6 +43,11 @@ Advice advice_at(Advice::Kind kind, double at_m, const Pose2& place) {
   return advice;
 }
 
+// From some start it is no GO. Neither a beginning nor what is measured on the way is looked at from there.
+bool hangs_on_start(const DriveVerdict& verdict) {
+  return verdict.starts && verdict.starts->count(Verdict::kGo) < verdict.starts->starts.size();
+}
+
 std::vector<sim::PathStation> beginning(const std::vector<sim::PathStation>& path, double length_m) {
   const auto end = std::find_if(path.begin(), path.end(), [&](const sim::PathStation& station) {
     return station.distance_m > length_m;
@@ -55,6 +61,7 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
                                     const sim::DrivePrediction& drive, const DriveVerdict& verdict,
                                     Progress& progress) {
   if (verdict.verdict == Verdict::kGo || drive.draws == 0) return std::nullopt;
+  if (hangs_on_start(verdict)) return std::nullopt;
   double length_m = promising_m(problem, drive, verdict);
   for (int tried = 0; tried < kMaxTries && length_m >= kMinDrive_m; ++tried, length_m *= 0.5) {
     const std::vector<sim::PathStation> shorter = beginning(path, length_m);
@@ -84,7 +91,7 @@ std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePr
                                   const DriveVerdict& verdict) {
   constexpr double kLeastHope = 0.1;
   const sim::OutcomeBars& bars = problem.risk.bars;
-  if (verdict.verdict != Verdict::kUnknown || !drive.scout) return std::nullopt;
+  if (verdict.verdict != Verdict::kUnknown || !drive.scout || hangs_on_start(verdict)) return std::nullopt;
   const sim::ScoutDrive& scout = *drive.scout;
   if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding ||
       scout.expected_stops >= bars.no_go_stop)

@@ -11,7 +11,8 @@
 
 namespace slipway::planner {
 
-// What would make a drive that is no GO better, each found by the prediction that it would lead to.
+// What would make a drive that is no GO better, each found by the prediction that it would lead to. Where it
+// is no GO from some displaced start no drive of its beginning is looked for.
 
 // The longest beginning of the drive that was found to be a GO, of 4 m or more: predicted and judged like the
 // whole. Nothing where the two that are tried are none, or where it was cancelled.

@@ -49,6 +49,9 @@ struct TimedStation {
   double in_w = 0.0, out_w = 0.0;
   double charge = 1.0,
          charge_low = 1.0;  // at the 50th percentile of the draws, and at the worse of it and the 95th
+  // Of the drive motor that is worked hardest, degC: at the 50th and at the 95th percentile. Nothing where
+  // the air or the motor is not known, see motor_warmth.h.
+  std::optional<double> motor_c = {}, motor_slow_c = {};
 };
 
 struct TimedDrive {
@@ -77,10 +80,13 @@ struct ChargingHalt {
 // What the times of day make of one route.
 struct Departures {
   std::vector<DepartureWindow> windows;  // in which all rules hold
-  std::optional<TimedDrive> best;        // the one that keeps most in the battery; nothing where no window is
-  std::optional<ChargingHalt> halt = {};  // that `best` needs
-  TimedDrive nearest;                     // where there is no window: what fails least, else the best
-  std::vector<TimedDrive> tried;          // without stations, by rising departure, as often as asked for
+  // The one that keeps most in the battery of those in windows; without a window the one that `halt` makes
+  // keep the rules; without either what fails least.
+  TimedDrive drive;
+  std::optional<ChargingHalt> halt = {};
+  std::vector<TimedDrive> tried;  // without stations, by rising departure, as often as asked for
+
+  bool is_kept() const { return !windows.empty() || halt; }  // `drive` keeps the rules
 };
 
 }  // namespace slipway::planner

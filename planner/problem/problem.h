@@ -9,6 +9,7 @@
 
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "planner/problem/displaced_start.h"
 #include "planner/problem/ranking.h"
 #include "planner/problem/weights.h"
 #include "sim/prediction/drive_prediction.h"
@@ -61,6 +62,7 @@ struct PlanProblem {
   // How many of risk.draws rank the candidates at first, where these are many; 0: all of them.
   int ranking_draws = 0;
   std::shared_ptr<const Departure> departure;  // where it is asked when the drive may begin
+  std::optional<StartError> start_error;       // of a plan's start; empty: it is where it is said to be
   std::size_t threads = 0;                     // 0: as many as the machine has
 
   // Start, waypoints in their order, goal.

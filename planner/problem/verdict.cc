@@ -1,5 +1,8 @@
 #include "planner/problem/verdict.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace slipway::planner {
 
 std::string_view describe(Verdict verdict) {
@@ -22,6 +25,14 @@ std::string_view verdict_words(std::string_view name) {
 int severity(Verdict verdict) {
   if (verdict == Verdict::kNoGo) return 2;
   return verdict == Verdict::kUnknown ? 1 : 0;
+}
+
+void add_rule(JudgedRule rule, DriveVerdict& verdict) {
+  const auto place = std::find_if(verdict.rules.begin(), verdict.rules.end(), [&](const JudgedRule& other) {
+    return severity(other.verdict) < severity(rule.verdict);
+  });
+  verdict.rules.insert(place, std::move(rule));
+  verdict.verdict = verdict.rules.front().verdict;
 }
 
 std::string_view describe(Advice::Kind kind) {

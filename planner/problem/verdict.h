@@ -52,15 +52,20 @@ struct Advice {
 std::string_view describe(Advice::Kind kind);
 
 struct Departures;
+struct DisplacedStarts;
 
 // What an operator is told. The verdict is NO-GO where any rule says so, else UNKNOWN where any rule is open,
 // else GO.
 struct DriveVerdict {
   Verdict verdict = Verdict::kUnknown;
-  std::vector<JudgedRule> rules;                 // the ones that decide first
-  std::vector<std::string> reasons;              // in words and numbers, the one that decides first
-  std::vector<Advice> advice;                    // what would make it better; none of a GO
-  std::shared_ptr<const Departures> departures;  // where it was asked when the drive may begin
+  std::vector<JudgedRule> rules;                       // the ones that decide first
+  std::vector<std::string> reasons;                    // in words and numbers, the one that decides first
+  std::vector<Advice> advice;                          // what would make it better; none of a GO
+  std::shared_ptr<const Departures> departures;        // where it was asked when the drive may begin
+  std::shared_ptr<const DisplacedStarts> starts = {};  // where the start has an error
 };
+
+// Adds a rule behind those that are as severe; the verdict is then that of the first.
+void add_rule(JudgedRule rule, DriveVerdict& verdict);
 
 }  // namespace slipway::planner

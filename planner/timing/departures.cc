@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -69,14 +70,10 @@ std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t b
 
 // Readers cut the seconds off: the whole minutes within, where there are any.
 DepartureWindow to_the_minute(const DepartureWindow& window) {
-  constexpr std::int64_t kMinute_ms = 60'000;
-  const auto whole = [](double ms, auto round) {
-    return static_cast<std::int64_t>(round(ms / kMinute_ms)) * kMinute_ms;
-  };
-  const DepartureWindow minutes{
-      whole(static_cast<double>(window.from_ms), [](double x) { return std::ceil(x); }),
-      whole(static_cast<double>(window.to_ms), [](double x) { return std::floor(x); })};
-  return minutes.from_ms <= minutes.to_ms ? minutes : window;
+  using std::chrono::milliseconds, std::chrono::minutes;
+  const milliseconds from = std::chrono::ceil<minutes>(milliseconds(window.from_ms));
+  const milliseconds to = std::chrono::floor<minutes>(milliseconds(window.to_ms));
+  return from <= to ? DepartureWindow{from.count(), to.count()} : window;
 }
 
 struct WithHalt {
@@ -110,7 +107,7 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, con
 
 }  // namespace
 
-Departures departures_of(const Departure& departure, const sim::PowerSupply* supply,
+Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, Progress& progress) {
   Departure at_hand = departure;
   if (departure.air) at_hand.noon_ms = noon_of(departure);
@@ -122,7 +119,7 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
         sky::table_of(*departure.sky, departure.from_ms, departure.to_ms + std::llround(1000.0 * longest_s),
                       departure.rules.min_earth_rad.has_value()));
   }
-  const DriveInTime drive(at_hand, supply, prediction, progress);
+  const DriveInTime drive(at_hand, rover, prediction, progress);
   Departures found;
   const double span_ms = static_cast<double>(departure.to_ms - departure.from_ms) + 1.0;
   const std::int64_t step_ms = std::llround(1000.0 * departure.every_s);
@@ -152,28 +149,22 @@ Departures departures_of(const Departure& departure, const sim::PowerSupply* sup
     if (is_last) break;
   }
   if (found.tried.empty()) return found;
-  found.nearest = drive.at(nearest->departs_ms, true);
-  if (!found.windows.empty()) {
-    found.best = found.nearest;
-  } else if (auto halting = with_halt(drive, prediction.length_m, departure, progress)) {
-    found.halt = halting->halt;
-    found.best = drive.at(halting->drive.departs_ms, true, halting->halt);
-  }
+  std::int64_t departs_ms = nearest->departs_ms;
+  if (found.windows.empty())
+    if (const auto halting = with_halt(drive, prediction.length_m, departure, progress)) {
+      found.halt = halting->halt;
+      departs_ms = halting->drive.departs_ms;
+    }
+  found.drive = drive.at(departs_ms, true, found.halt);
   return found;
 }
 
 void judge_departures(const Departures& departures, DriveVerdict& verdict) {
-  const TimedDrive& drive = departures.best ? *departures.best : departures.nearest;
+  const TimedDrive& drive = departures.drive;
   std::vector<std::string> why;
-  for (const JudgedRule& rule : drive.rules) {
-    verdict.rules.push_back(rule);
-    if (rule.verdict == Verdict::kGo) continue;
-    why.push_back(rule.words);
-  }
-  std::stable_sort(verdict.rules.begin(), verdict.rules.end(), [](const JudgedRule& a, const JudgedRule& b) {
-    return severity(a.verdict) > severity(b.verdict);
-  });
-  if (!departures.best && !why.empty()) {
+  for (const JudgedRule& rule : drive.rules)
+    if (rule.verdict != Verdict::kGo) why.push_back(rule.words);
+  if (!departures.is_kept() && !why.empty()) {
     std::string words = fmt::format("no departure keeps the rules of the day; at {} {}",
                                     utc_text(drive.departs_ms), why.front());
     for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
@@ -188,20 +179,22 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (!departures.windows.empty()) {
     const DepartureWindow first = to_the_minute(departures.windows.front());
-    verdict.reasons.push_back(fmt::format(
-        "a departure between {} and {}{} keeps the rules of the day, best at {}", utc_text(first.from_ms),
-        utc_text(first.to_ms), departures.windows.size() > 1 ? " and in later windows" : "",
-        utc_text(drive.departs_ms)));
+    verdict.reasons.push_back(
+        departures.tried.size() == 1
+            ? fmt::format("a departure at {} keeps the rules of the day", utc_text(drive.departs_ms))
+            : fmt::format("a departure between {} and {}{} keeps the rules of the day, best at {}",
+                          utc_text(first.from_ms), utc_text(first.to_ms),
+                          departures.windows.size() > 1 ? " and in later windows" : "",
+                          utc_text(drive.departs_ms)));
   }
-  if (!verdict.rules.empty()) verdict.verdict = verdict.rules.front().verdict;
+  for (const JudgedRule& rule : drive.rules) add_rule(rule, verdict);
 }
 
 void add_departures(const PlanProblem& problem, const sim::DrivePrediction& prediction, DriveVerdict& verdict,
                     Progress& progress) {
   if (!problem.departure || prediction.stations.empty()) return;
-  const auto& power = problem.rover->power;
   auto found = std::make_shared<const Departures>(
-      departures_of(*problem.departure, power ? &*power : nullptr, prediction, progress));
+      departures_of(*problem.departure, *problem.rover, prediction, progress));
   if (found->tried.empty()) return;
   judge_departures(*found, verdict);
   verdict.departures = std::move(found);

@@ -54,29 +54,41 @@ struct DriveInTime::Course {
     }
   };
   Least charge_at, sun_rad, earth_rad;
+  Least over_coldest_k, below_warmest_k;            // what the drive motors have left to their limits
   bool sun_is_known = true, earth_is_known = true;  // all the way
 };
 
-DriveInTime::DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
+DriveInTime::DriveInTime(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, const Progress& progress)
-    : departure_(departure), supply_(supply) {
+    : departure_(departure), rover_(rover), supply_(rover.power) {
+  if (departure.air) {
+    air_.emplace(departure);
+    motor_ = motor_warmth(rover.drive);
+    if (motor_) air_of_motors_.emplace(departure, motor_->time_constant_s);
+  }
   const std::vector<sim::StationPrediction>& stations = prediction.stations;
   const std::size_t step = 1 + stations.size() / kMostPlaces;
-  double since_s = 0.0, motors_j = 0.0, before_s = 0.0;
+  double since_s = 0.0, before_s = 0.0;
+  Eigen::Array3d since_j = Eigen::Array3d::Zero();  // of the motors, and of the greatest and the least losses
   for (std::size_t k = 0; k < stations.size() && !progress.cancelled(); ++k) {
     const sim::StationPrediction& at = stations[k];
+    const MotorLosses losses = motor_ ? motor_losses(rover, at.state) : MotorLosses{};
+    const Eigen::Array3d here_w(at.state.electric_power_w, losses.most_w, losses.least_w);
     since_s += at.elapsed_s - before_s;
-    motors_j += at.state.electric_power_w * (at.elapsed_s - before_s);
+    since_j += here_w * (at.elapsed_s - before_s);
     before_s = at.elapsed_s;
     if (k % step != 0 && k + 1 != stations.size()) continue;
+    const Eigen::Array3d mean_w = since_s > 0.0 ? Eigen::Array3d(since_j / since_s) : here_w;
     Place place{at.station.distance_m,
                 at.elapsed_s,
-                since_s > 0.0 ? motors_j / since_s : at.state.electric_power_w,
+                mean_w[0],
+                {mean_w[1], mean_w[2]},
                 at.station.pose.x_m,
                 at.station.pose.y_m,
                 rotation_MB(at.state.attitude).col(2),
                 {}};
-    since_s = motors_j = 0.0;
+    since_s = 0.0;
+    since_j.setZero();
     if (departure.horizon) {
       auto horizon =
           departure.horizon->all_around_rad(at.station.pose.x_m, at.station.pose.y_m, kEye_m, kDirections);
@@ -130,22 +142,24 @@ double DriveInTime::fine_horizon_rad(const Place& place, double azimuth_rad) con
   return (1.0 - share) * looked_at(k) + share * looked_at(k + 1);
 }
 
-double DriveInTime::air_c(std::int64_t utc_ms) const {
-  constexpr double kWarmest = 2.0 / 24.0;  // behind noon
-  const double phase =
-      static_cast<double>(utc_ms - departure_.noon_ms) / 1000.0 / departure_.day_s - kWarmest;
-  const double mean = 0.5 * (departure_.air->warmest_c + departure_.air->coldest_c);
-  return mean + 0.5 * (departure_.air->warmest_c - departure_.air->coldest_c) *
-                    std::cos(2.0 * std::numbers::pi * phase);
-}
-
 DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
                                      const std::optional<ChargingHalt>& halt,
                                      std::vector<TimedStation>* stations) const {
   Course course;
   course.charge = departure_.charge;
   std::int64_t now = departs_ms;
-  const auto spend = [&](const Place& place, double seconds, std::optional<double> motors_w) {
+  // Of the motor that loses most and of the one that loses least, over what follows the air alone.
+  double most_k = 0.0, least_k = 0.0;
+  const sim::DriveMotor& drive = rover_.drive;
+  const bool asks_of_motors = motor_ && (stations != nullptr || drive.min_temp_c || drive.max_temp_c);
+  const auto look_at_motors = [&](double distance_m) {
+    const double air_c = air_of_motors_->at_c(now);
+    if (drive.min_temp_c) course.over_coldest_k.lower(air_c + least_k - *drive.min_temp_c, distance_m);
+    if (drive.max_temp_c) course.below_warmest_k.lower(*drive.max_temp_c - air_c - most_k, distance_m);
+    return air_c + most_k;
+  };
+  // `effort`: the motors' power over that on the mean soils; nothing where the rover stands.
+  const auto spend = [&](const Place& place, double seconds, std::optional<double> effort) {
     const std::int64_t middle = after(now, 0.5 * seconds);
     const double distance_m = place.distance_m;
     const auto sun = departure_.sky->sun(middle);
@@ -160,7 +174,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
       course.earth_is_known &= earth.has_value();
     }
     double in_w = 0.0, out_w = 0.0;
-    if (supply_ != nullptr) {
+    if (supply_) {
       in_w = supply_->constant_w;
       if (sun && supply_->array_m2 > 0.0) {
         const Light light =
@@ -170,8 +184,8 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
             (is_lit ? light.beam_w_m2 * std::max(0.0, sky::towards(*sun).dot(place.up)) : 0.0);
         in_w += supply_->array_m2 * supply_->array_efficiency * supply_->array_clean * on_cells;
       }
-      out_w = motors_w ? *motors_w + supply_->driving_w : supply_->standing_w;
-      if (departure_.air && air_c(middle) < supply_->heating_below_c) out_w += supply_->heating_w;
+      out_w = effort ? place.motors_w * *effort + supply_->driving_w : supply_->standing_w;
+      if (air_ && air_->at_c(middle) < supply_->heating_below_c) out_w += supply_->heating_w;
       const double hours = seconds / kHour_s;
       course.gained_wh += in_w * hours;
       course.used_wh += out_w * hours;
@@ -186,8 +200,16 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     course.least_charge = std::min(course.least_charge, course.charge);
     course.total_s += seconds;
     if (is_lit) course.lit_s += seconds;
+    std::optional<double> motor_c;
+    if (asks_of_motors) {
+      if (effort) look_at_motors(distance_m);
+      most_k = motor_->after(most_k, place.losses.most_w * effort.value_or(0.0), seconds);
+      least_k = motor_->after(least_k, place.losses.least_w * effort.value_or(0.0), seconds);
+    }
     now = after(now, seconds);
-    return TimedStation{distance_m, now, now, over, is_lit, in_w, out_w, course.charge, course.charge};
+    if (asks_of_motors && effort) motor_c = look_at_motors(distance_m);
+    return TimedStation{distance_m, now,   now,           over,          is_lit,
+                        in_w,       out_w, course.charge, course.charge, motor_c};
   };
   bool halted = !halt;
   for (std::size_t k = 0; k < places_.size(); ++k) {
@@ -195,7 +217,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     const double before_s = k == 0 ? 0.0 : places_[k - 1].elapsed_s;
     const double seconds = pace.time * (place.elapsed_s - before_s);
     // What more energy is needed goes into the same time's power.
-    const TimedStation at = spend(place, seconds, place.motors_w * pace.energy / pace.time);
+    const TimedStation at = spend(place, seconds, pace.energy / pace.time);
     if (stations != nullptr) stations->push_back(at);
     if (halted || place.distance_m < halt->at_m) continue;
     halted = true;
@@ -255,7 +277,7 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     drive.rules.push_back(std::move(rule));
   };
   const bool sun_is_known = usual.sun_is_known && slow.sun_is_known;
-  if (supply_ != nullptr) {
+  if (supply_) {
     const Course& least = usual.least_charge < slow.least_charge ? usual : slow;
     const double limit = 100.0 * rules.min_charge.value_or(0.0);
     add("charge", sun_is_known || supply_->array_m2 <= 0.0, 100.0 * usual.least_charge,
@@ -263,6 +285,20 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
         fmt::format(
             "the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
             100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m, limit));
+  }
+  if (motor_) {
+    const auto motors = [&](const char* name, double sign, std::optional<double> limit_c,
+                            const Course::Least& a, const Course::Least& b) {
+      if (!limit_c) return;
+      const Course::Least& least = a.value < b.value ? a : b;
+      add(name, true, a.value, least.value, 0.0, "K", least.at_m,
+          fmt::format("the {} drive motor has {:.0f} degC, at the worse pace {:.0f} degC at {:.1f} m, limit "
+                      "{:.0f} degC",
+                      sign > 0.0 ? "coldest" : "hottest", *limit_c + sign * a.value,
+                      *limit_c + sign * least.value, least.at_m, *limit_c));
+    };
+    motors("motor_cold", 1.0, rover_.drive.min_temp_c, usual.over_coldest_k, slow.over_coldest_k);
+    motors("motor_hot", -1.0, rover_.drive.max_temp_c, usual.below_warmest_k, slow.below_warmest_k);
   }
   const auto in_sight = [&](const char* name, const char* what, bool is_known, const Course::Least& a,
                             const Course::Least& b, double limit_rad) {
@@ -310,6 +346,7 @@ TimedDrive DriveInTime::at(std::int64_t departs_ms, bool keep_stations,
   for (std::size_t k = 0; k < drive.stations.size(); ++k) {
     drive.stations[k].charge_low = std::min(drive.stations[k].charge, at_slow_pace[k].charge);
     drive.stations[k].late_ms = at_slow_pace[k].utc_ms;
+    drive.stations[k].motor_slow_c = at_slow_pace[k].motor_c;
   }
   drive.departs_ms = departs_ms;
   drive.arrives_ms = usual.arrives_ms;

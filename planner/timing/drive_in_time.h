@@ -4,8 +4,9 @@
 
 #include "core/progress.h"
 #include "planner/problem/departure.h"
+#include "planner/timing/motor_warmth.h"
 #include "sim/prediction/drive_prediction.h"
-#include "sim/rover/power_supply.h"
+#include "sim/rover/rover_model.h"
 
 namespace slipway::planner {
 
@@ -21,9 +22,9 @@ Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_
 // A predicted drive as it goes through the day. To be used by one thread.
 class DriveInTime {
  public:
-  // `supply` null: nothing is known of the rover's power, and charge stays what it is. All must outlive it.
-  // Horizons are looked at here, at some 400 places of the way; where that is cancelled it must not be used.
-  DriveInTime(const Departure& departure, const sim::PowerSupply* supply,
+  // Of a rover without `power` charge stays what it is. All must outlive it. Horizons are looked at here, at
+  // some 400 places of the way; where that is cancelled it must not be used.
+  DriveInTime(const Departure& departure, const sim::RoverModel& rover,
               const sim::DrivePrediction& prediction, const Progress& progress);
 
   // From a departure on, with rules judged; with `keep_stations` also what is at each of them.
@@ -31,9 +32,10 @@ class DriveInTime {
                 const std::optional<ChargingHalt>& halt = std::nullopt) const;
 
  private:
-  // Of a place on the way; motors_w is the mean since the place before.
+  // Of a place on the way; motors_w and losses are means since the place before.
   struct Place {
     double distance_m, elapsed_s, motors_w;
+    MotorLosses losses;
     double x_m, y_m;
     Eigen::Vector3d up;               // of the body
     std::vector<double> horizon_rad;  // all around; empty where it is not known
@@ -53,10 +55,13 @@ class DriveInTime {
   double over_horizon_rad(const Place& place, const sky::Bearing& bearing) const;
   double fine_horizon_rad(const Place& place, double azimuth_rad) const;
   std::optional<double> light_left_s(std::int64_t from_ms, double enough_s) const;
-  double air_c(std::int64_t utc_ms) const;
 
   const Departure& departure_;
-  const sim::PowerSupply* supply_;
+  const sim::RoverModel& rover_;
+  const std::optional<sim::PowerSupply>& supply_;
+  // Where there is air; of the motors also where they are known.
+  std::optional<FollowingAir> air_, air_of_motors_;
+  std::optional<MotorWarmth> motor_;
   std::vector<Place> places_;
   Pace usual_, slow_;
   mutable std::int64_t lit_from_ms_ = 0, lit_to_ms_ = -1;  // between which the last place is known to be lit

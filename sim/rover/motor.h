@@ -32,6 +32,11 @@ struct DriveMotor {
   double resistance_per_k = 0.0;
   double friction_per_k = 0.0;
 
+  // Read where a drive is followed through the day, see planner/timing/motor_warmth.h: from motor and gear to
+  // the air, the time constant with which they follow it, and between what they may be.
+  std::optional<double> thermal_resistance_k_w = {}, thermal_time_constant_s = {};
+  std::optional<double> min_temp_c = {}, max_temp_c = {};
+
   bool operator==(const DriveMotor&) const = default;
 };
 

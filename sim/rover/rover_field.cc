@@ -138,6 +138,22 @@ constexpr std::array kMotor{
                            .number = [](DriveMotor& m) -> double& { return m.rotor_inertia_kg_m2; },
                            .presence = kOptional,
                            .writing = kUnlessInitial},
+    ModelField<DriveMotor>{
+        .field = {"thermal_resistance_k_w", "K/W", "from motor and gear to the air", 0.01, 1000.0, 7.0},
+        .maybe = [](DriveMotor& m) -> Maybe& { return m.thermal_resistance_k_w; },
+        .presence = kOptional},
+    ModelField<DriveMotor>{
+        .field = {"thermal_time_constant_s", "s", "of motor and gear in the air", 1.0, 1e6, 1000.0},
+        .maybe = [](DriveMotor& m) -> Maybe& { return m.thermal_time_constant_s; },
+        .presence = kOptional},
+    ModelField<DriveMotor>{
+        .field = {"min_temp_c", "degC", "the coldest at which it is driven", -273.0, 500.0, -55.0},
+        .maybe = [](DriveMotor& m) -> Maybe& { return m.min_temp_c; },
+        .presence = kOptional},
+    ModelField<DriveMotor>{
+        .field = {"max_temp_c", "degC", "the warmest at which it is driven", -273.0, 500.0, 100.0},
+        .maybe = [](DriveMotor& m) -> Maybe& { return m.max_temp_c; },
+        .presence = kOptional},
 };
 
 constexpr std::array kPower{

@@ -216,6 +216,8 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
   check_fields(differential_fields(), rover.suspension, "/suspension", faults.all());
   check_fields(bogie_fields(), rover.suspension, "/suspension", faults.all());
   check_fields(motor_fields(), rover.drive, "/drive", faults.all());
+  if (rover.drive.min_temp_c > rover.drive.max_temp_c && rover.drive.max_temp_c)
+    faults.add("/drive/min_temp_c", "min_temp_c is above max_temp_c");
   if (rover.steering) check_fields(motor_fields(), *rover.steering, "/steering", faults.all());
   check_fields(body_fields(), rover, "", faults.all());
   faults.require_in("/roll_bias_deg", "roll_bias_rad", rover.roll_bias_rad, -0.5, 0.5);

@@ -351,7 +351,8 @@ class Contract(WithServer):
 
     def test_a_sol_is_a_page_with_its_day_its_checks_and_its_way_back(self):
         day = {"from": "2016-03-22T05:00:00Z", "to": "2016-03-22T15:00:00Z", "min_sun_deg": 10, "charge_percent": 60, "min_charge_percent": 40}
-        request = {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, "routes": 1, "draws": 24, "departure": day}
+        request = {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, "routes": 1, "draws": 24, "departure": day,
+                   "start_error": {"position_m": 0.2, "heading_deg": 1}}
         status, headers, body = self.server.ask("POST", "/v1/sols", request, {"Prefer": "wait=30"})
         self.assertIn(status, (200, 201), body[:500])
         location = headers["Location"] if status == 201 else headers["Content-Location"].replace("/result", "")
@@ -360,7 +361,11 @@ class Contract(WithServer):
             body = self.server.ask("GET", location + "/result")[2]
         sol = json.loads(body)
         self.assertEqual((sol["format"], sol["plan"]["format"]), ("sol/1", "plan/1"))
-        departures = sol["plan"]["routes"]["features"][0]["properties"]["decision"]["departures"]
+        decision = sol["plan"]["routes"]["features"][0]["properties"]["decision"]
+        departures, starts = decision["departures"], decision["starts"]
+        (of_start,) = [rule for rule in decision["rules"] if rule["rule"] == "start"]
+        self.assertEqual((starts["starts"], starts["go"] + starts["unknown"] + starts["no_go"]), (25, 25))
+        self.assertEqual(of_start["verdict"] == "go", starts["go"] == 25)
         (window,) = departures["windows"]
         self.assertLess(window["from"], departures["best"]["arrives"])
         best = departures["best"]
@@ -370,12 +375,16 @@ class Contract(WithServer):
         if sol["worst"]:
             self.assertEqual(sol["back_out"]["format"], "check/1")
             self.assertTrue(sol["back_out"]["request"]["backwards"])
+            begun = sol["back_out"]["request"]["departure"]
+            self.assertTrue(departures["best"]["departs"] <= begun["from"] == begun["to"] <= departures["best"]["arrives_late"])
+            self.assertLess({"charge", "sun"}, {rule["rule"] for rule in sol["back_out"]["decision"]["rules"]})
         status, headers, page = self.server.ask("GET", location + "/report")
         self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
         for words in ("A sol of msl-class on gale", "The day", "Where to check the slip", "Commands"):
             self.assertIn(words, page.decode())
         self.refused("/v1/sols", {k: v for k, v in request.items() if k != "departure"}, 422, "/departure")
         self.refused("/v1/sols", {**request, "departure": {**day, "to": "noon", "min_sun_deg": 99}}, 422, "/departure/to", "/departure/min_sun_deg")
+        self.refused("/v1/sols", {**request, "start_error": {"position_m": -1, "heading_deg": 90}}, 422, "/start_error/position_m", "/start_error/heading_deg")
 
     def test_bad_requests_name_every_fault(self):
         self.refused("/v1/plans", "{", 400)

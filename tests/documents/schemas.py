@@ -30,7 +30,7 @@ BEYOND = re.compile(
     "there is no file|unknown (soil|rover|terrain|effect|parameter)|another legend has this name|must be the (file's name|name of its)"
     "|is another wheel's|positive on the left|height_m = [\\d.]+, must be in|com_m lies outside|leave the body|one moment is above"
     "|no wheel on the|rocker must carry wheels|is switched on twice|must be a whole number up to|is not positive"
-    "|is given twice|log-normal|contradict|another quantity|c1 and c2 (are|do not)|add up to 1|as many values|must rise|span the level"
+    "|is given twice|is above max_temp_c|log-normal|contradict|another quantity|c1 and c2 (are|do not)|add up to 1|as many values|must rise|span the level"
     "|weights of pressure|either all alternatives|in_patches is for|patches_spread is for|must be at least max_stop"
     "|k_c / b \\+ k_phi|there is no drive of this id|is the drive itself|is no class"
     "|/parameters/\\S+ \\S+ = \\S+ must be in")
@@ -279,7 +279,8 @@ def terrain_schema():
 EVERY_CLEAT = {"height_m": 0.005, "count": 12, "thrust": 0.5, "braking": 0.5, "by_slip": 0.5, "surcharge": 0.5, "shear_share": 0.5,
                "shear_by_spacing": 0.5}
 EVERY_MASS = {"wheel_kg": 5, "rocker_kg": 5, "bogie_kg": 3, "body_inertia_kg_m2": [20, 30, 40]}
-EVERY_OF_MOTOR = {"damping_nms_rad": 1e-6, "resistance_ohm": 1.5, "max_current_a": 4, "rotor_inertia_kg_m2": 1e-7}
+EVERY_OF_MOTOR = {"damping_nms_rad": 1e-6, "resistance_ohm": 1.5, "max_current_a": 4, "rotor_inertia_kg_m2": 1e-7,
+                  "thermal_resistance_k_w": 7, "thermal_time_constant_s": 1000, "min_temp_c": -60, "max_temp_c": 110}
 EVERY_JOINT = {"differential_stiffness_nm_per_deg": 1000, "differential_damping_nms_per_deg": 10, "rocker_stop_deg": 30}
 
 

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "planner/timing/drive_in_time.h"
+#include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {
 namespace {
@@ -66,6 +67,13 @@ Departure a_day() {
 constexpr sim::PowerSupply kCells{
     .array_m2 = 2.0, .array_efficiency = 0.25, .battery_wh = 300.0, .standing_w = 20.0, .driving_w = 60.0};
 
+sim::RoverModel powered_by(const sim::PowerSupply& supply) {
+  sim::RoverModel rover;
+  rover.power = supply;
+  return rover;
+}
+const sim::RoverModel kOnCells = powered_by(kCells), kUnpowered;
+
 bool holds(const TimedDrive& drive) {
   return std::all_of(drive.rules.begin(), drive.rules.end(),
                      [](const JudgedRule& rule) { return rule.verdict == Verdict::kGo; });
@@ -76,7 +84,7 @@ TEST(DriveInTime, ItsEnergyCloses) {
   departure.charge = 0.5;
   departure.optical_depth = 0.4;
   const sim::DrivePrediction prediction = two_hours();
-  const DriveInTime drive(departure, &kCells, prediction, kNoProgress);
+  const DriveInTime drive(departure, kOnCells, prediction, kNoProgress);
   for (const double hour : {1.0, 5.5, 9.0, 12.0, 17.0}) {
     const TimedDrive at = drive.at(std::llround(hour * 3.6e6), true);
     const double end = 0.5 + (at.gained_wh - at.used_wh - at.spilled_wh) / kCells.battery_wh;
@@ -97,8 +105,8 @@ TEST(DriveInTime, TheBodyThatLeansToTheSunGainsMore) {
     at.state.attitude.roll_rad = rad_from_deg(15.0);  // left side up: leans south
   for (auto& at : north.stations) at.state.attitude.roll_rad = rad_from_deg(-15.0);
   const Departure departure = a_day();
-  EXPECT_GT(DriveInTime(departure, &kCells, south, kNoProgress).at(11 * kHour_ms).gained_wh,
-            1.2 * DriveInTime(departure, &kCells, north, kNoProgress).at(11 * kHour_ms).gained_wh);
+  EXPECT_GT(DriveInTime(departure, kOnCells, south, kNoProgress).at(11 * kHour_ms).gained_wh,
+            1.2 * DriveInTime(departure, kOnCells, north, kNoProgress).at(11 * kHour_ms).gained_wh);
 }
 
 TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
@@ -109,10 +117,10 @@ TEST(Departures, WindowsAreThoseOfEveryDepartureByItself) {
   departure.rules.light_left_s = kHour_s;
   const sim::DrivePrediction prediction = two_hours();
   NoProgress progress;
-  const Departures found = departures_of(departure, &kCells, prediction, progress);
+  const Departures found = departures_of(departure, kOnCells, prediction, progress);
   ASSERT_EQ(found.windows.size(), 1U);
-  ASSERT_TRUE(found.best);
-  const DriveInTime drive(departure, &kCells, prediction, kNoProgress);
+  ASSERT_TRUE(found.is_kept());
+  const DriveInTime drive(departure, kOnCells, prediction, kNoProgress);
   for (std::int64_t at = 0; at <= departure.to_ms; at += 120'000) {
     const bool inside = at >= found.windows[0].from_ms && at <= found.windows[0].to_ms;
     const auto distance =
@@ -138,7 +146,7 @@ TEST(Departures, NoWindowReachesOverANight) {
   departure.rules.min_sun_rad = rad_from_deg(5.0);
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  const Departures found = departures_of(departure, kUnpowered, prediction, progress);
   ASSERT_EQ(found.windows.size(), 4U);
   for (const DepartureWindow& window : found.windows) EXPECT_LT(window.to_ms - window.from_ms, 9 * kHour_ms);
   EXPECT_EQ(found.tried.size(), 4U);
@@ -148,7 +156,8 @@ TEST(DriveInTime, LightIsLeftUntilTheSunSetsToASecond) {
   Departure departure = a_day();
   departure.rules.light_left_s = 20.0 * kHour_s;
   const sim::DrivePrediction prediction = two_hours();
-  const TimedDrive drive = DriveInTime(departure, nullptr, prediction, kNoProgress).at(9 * kHour_ms + 17'000);
+  const TimedDrive drive =
+      DriveInTime(departure, kUnpowered, prediction, kNoProgress).at(9 * kHour_ms + 17'000);
   ASSERT_EQ(drive.rules.size(), 1U);
   // It arrives at 12 h and 17 s at the slow pace.
   EXPECT_NEAR(drive.rules[0].low * kHour_s, 6.0 * kHour_s - 17.0, 2.0);
@@ -177,7 +186,7 @@ TEST(DriveInTime, APostThatIsNarrowHidesALowSun) {
   sim::DrivePrediction stands = two_hours();
   for (auto& station : stands.stations) station.station.pose = {50.5, 50.2, 0.0};
   NoProgress progress;
-  const Departures found = departures_of(departure, nullptr, stands, progress);
+  const Departures found = departures_of(departure, kUnpowered, stands, progress);
   EXPECT_EQ(found.windows.size(), 2U);
 }
 
@@ -186,9 +195,9 @@ TEST(Departures, WithoutAWindowItIsANoGoWithTheReason) {
   departure.rules.arrive_by = kHour_ms;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  const Departures found = departures_of(departure, kUnpowered, prediction, progress);
   EXPECT_TRUE(found.windows.empty());
-  EXPECT_FALSE(found.best);
+  EXPECT_FALSE(found.is_kept());
   DriveVerdict verdict;
   verdict.verdict = Verdict::kGo;
   judge_departures(found, verdict);
@@ -203,17 +212,17 @@ TEST(Departures, AHaltInTheSunLetsTheBatteryCharge) {
   departure.to_ms = 8 * kHour_ms;
   departure.charge = 0.45;
   departure.rules.min_charge = 0.4;
-  sim::PowerSupply hungry = kCells;
-  hungry.driving_w = 160.0;
+  sim::RoverModel hungry = kOnCells;
+  hungry.power->driving_w = 160.0;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, &hungry, prediction, progress);
+  const Departures found = departures_of(departure, hungry, prediction, progress);
   EXPECT_TRUE(found.windows.empty());
-  ASSERT_TRUE(found.best);
   ASSERT_TRUE(found.halt);
+  ASSERT_TRUE(found.is_kept());
   EXPECT_GT(found.halt->hours, 0.0);
-  EXPECT_TRUE(holds(*found.best));
-  EXPECT_GE(found.best->least_charge_low, 0.4);
+  EXPECT_TRUE(holds(found.drive));
+  EXPECT_GE(found.drive.least_charge_low, 0.4);
 }
 
 TEST(Departures, WhereTheSkyIsNotKnownItsRulesAreOpen) {
@@ -225,13 +234,13 @@ TEST(Departures, WhereTheSkyIsNotKnownItsRulesAreOpen) {
   departure.rules.arrive_by = 9 * kHour_ms;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  const Departures found = departures_of(departure, kUnpowered, prediction, progress);
   DriveVerdict verdict;
   verdict.verdict = Verdict::kGo;
   judge_departures(found, verdict);
   EXPECT_EQ(verdict.verdict, Verdict::kUnknown);
   departure.rules.min_sun_rad.reset();
-  EXPECT_EQ(departures_of(departure, nullptr, prediction, progress).windows.size(), 1U);
+  EXPECT_EQ(departures_of(departure, kUnpowered, prediction, progress).windows.size(), 1U);
 }
 
 TEST(Departures, AnEmptyBatteryIsANoGoWithoutBeingAsked) {
@@ -240,7 +249,7 @@ TEST(Departures, AnEmptyBatteryIsANoGoWithoutBeingAsked) {
   departure.charge = 0.05;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, &kCells, prediction, progress);
+  const Departures found = departures_of(departure, kOnCells, prediction, progress);
   EXPECT_TRUE(found.windows.empty());
 }
 
@@ -252,7 +261,7 @@ TEST(Departures, TheLastMomentIsTriedToo) {
   departure.rules.arrive_by = 3 * kHour_ms + 40 * 60'000;  // the slow pace takes three hours
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, nullptr, prediction, progress);
+  const Departures found = departures_of(departure, kUnpowered, prediction, progress);
   ASSERT_EQ(found.windows.size(), 1U);
   EXPECT_NEAR(static_cast<double>(found.windows[0].to_ms), 40 * 60'000.0, 2000.0);
   EXPECT_EQ(found.tried.size(), 3U);
@@ -269,12 +278,92 @@ TEST(Departures, BehindAWallTheSunIsNotInSight) {
   Departure departure = a_day();
   departure.rules.min_sun_rad = 0.0;
   const sim::DrivePrediction prediction = two_hours();
-  EXPECT_TRUE(holds(DriveInTime(departure, &kCells, prediction, kNoProgress).at(11 * kHour_ms)));
+  EXPECT_TRUE(holds(DriveInTime(departure, kOnCells, prediction, kNoProgress).at(11 * kHour_ms)));
   departure.horizon = std::make_shared<dem::Horizon>(std::make_shared<dem::Terrain>(kGrid, heights, valid),
                                                      std::numeric_limits<double>::infinity());
-  const TimedDrive hidden = DriveInTime(departure, &kCells, prediction, kNoProgress).at(11 * kHour_ms);
+  const TimedDrive hidden = DriveInTime(departure, kOnCells, prediction, kNoProgress).at(11 * kHour_ms);
   EXPECT_FALSE(holds(hidden));
   EXPECT_EQ(hidden.lit_share, 0.0);
+}
+
+// Hour by hour through three days, as the equation has it.
+TEST(MotorWarmth, WhatFollowsTheAirKeepsItsEquation) {
+  Departure departure = a_day();
+  departure.air = AirTemperature{-80.0, -10.0};
+  departure.noon_ms = 12 * kHour_ms;
+  const FollowingAir air(departure);
+  EXPECT_NEAR(air.at_c(14 * kHour_ms), -10.0, 1e-9);
+  EXPECT_NEAR(air.at_c(2 * kHour_ms), -80.0, 1e-9);
+  constexpr double kTau_s = 5000.0, kStep_s = 5.0;
+  const FollowingAir follows(departure, kTau_s);
+  double motor_c = -45.0;
+  for (std::int64_t ms = 0; ms < 72 * kHour_ms; ms += 5000) {
+    if (ms >= 48 * kHour_ms && ms % kHour_ms == 0) {
+      EXPECT_NEAR(motor_c, follows.at_c(ms), 0.1) << ms / kHour_ms;
+    }
+    motor_c += kStep_s / kTau_s * (air.at_c(ms) - motor_c);
+  }
+}
+
+// The drive of two_hours() with wheels that each give 1 W to the ground.
+sim::DrivePrediction with_wheels(sim::DrivePrediction drive) {
+  for (sim::StationPrediction& at : drive.stations)
+    for (int k = 0; k < 6; ++k)
+      at.state.wheels.push_back({.rate_rad_s = 0.1, .torque_nm = k == 0 ? 20.0 : 10.0});
+  return drive;
+}
+
+sim::RoverModel with_warm_motors() {
+  sim::RoverModel rover = *test_rover();
+  rover.drive.gear_efficiency = 0.5;
+  rover.drive.thermal_resistance_k_w = 7.0;
+  rover.drive.thermal_time_constant_s = 1200.0;
+  return rover;
+}
+
+TEST(DriveInTime, AMotorIsWarmedByItsLossesAtEitherPace) {
+  const sim::RoverModel rover = with_warm_motors();
+  const sim::DrivePrediction prediction = with_wheels(two_hours());
+  Departure departure = a_day();
+  departure.air = AirTemperature{-20.0, -20.0};
+  const TimedDrive drive = DriveInTime(departure, rover, prediction, kNoProgress).at(9 * kHour_ms, true);
+  // Of the hardest-worked wheel half of what goes in is lost in the gear: 2 W of 4 W.
+  const MotorLosses losses = motor_losses(rover, prediction.stations.front().state);
+  EXPECT_GE(losses.most_w, 2.0);
+  EXPECT_GT(losses.most_w, losses.least_w);
+  for (const TimedStation& at : drive.stations) {
+    const double usual_s = static_cast<double>(at.utc_ms - drive.departs_ms) / 1000.0;
+    ASSERT_TRUE(at.motor_c && at.motor_slow_c);
+    EXPECT_NEAR(*at.motor_c, -20.0 + 7.0 * losses.most_w * (1.0 - std::exp(-usual_s / 1200.0)), 1e-3);
+    // One draw of ten takes twice the energy in one and a half times the time.
+    EXPECT_NEAR(*at.motor_slow_c,
+                -20.0 + 7.0 * losses.most_w * 4.0 / 3.0 * (1.0 - std::exp(-1.5 * usual_s / 1200.0)), 1e-3);
+  }
+  departure.air.reset();
+  EXPECT_FALSE(
+      DriveInTime(departure, rover, prediction, kNoProgress).at(9 * kHour_ms, true).stations.back().motor_c);
+}
+
+TEST(DriveInTime, MotorsMustStayBetweenTheirLimits) {
+  sim::RoverModel rover = with_warm_motors();
+  const sim::DrivePrediction prediction = with_wheels(two_hours());
+  Departure departure = a_day();
+  departure.air = AirTemperature{-80.0, 0.0};
+  departure.noon_ms = 12 * kHour_ms;
+  EXPECT_TRUE(DriveInTime(departure, rover, prediction, kNoProgress).at(2 * kHour_ms).rules.empty());
+  rover.drive.min_temp_c = -55.0;
+  const DriveInTime cold(departure, rover, prediction, kNoProgress);
+  EXPECT_TRUE(holds(cold.at(14 * kHour_ms)));
+  const TimedDrive at_night = cold.at(2 * kHour_ms);
+  EXPECT_FALSE(holds(at_night));
+  EXPECT_EQ(at_night.rules.front().name, "motor_cold");
+  EXPECT_EQ(at_night.rules.front().at_m, 0.0);
+  rover.drive.min_temp_c.reset();
+  rover.drive.max_temp_c = 5.0;
+  const DriveInTime hot(departure, rover, prediction, kNoProgress);
+  EXPECT_FALSE(holds(hot.at(13 * kHour_ms)));
+  EXPECT_EQ(hot.at(13 * kHour_ms).rules.front().name, "motor_hot");
+  EXPECT_TRUE(holds(hot.at(2 * kHour_ms)));
 }
 
 }  // namespace

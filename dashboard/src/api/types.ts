@@ -976,6 +976,13 @@ export interface components {
             /** @description Of GET /v1/rovers */
             rover: string;
             start?: components["schemas"]["Waypoint"];
+            /** @description How wrong the start may be, as standard deviations of normal errors: the commands of each route are driven on the mean soils from 25 starts, see Decision.starts and its rule "start" */
+            start_error?: {
+                /** @description Along each axis [m] */
+                position_m?: number;
+                /** @description Of the heading [deg] */
+                heading_deg?: number;
+            };
             goal: components["schemas"]["Waypoint"];
             /** @description Visited in order */
             waypoints?: components["schemas"]["Waypoint"][];
@@ -3279,6 +3286,37 @@ export interface components {
             /** @description What would make it better; none of a GO */
             advice: components["schemas"]["Advice"][];
             departures?: components["schemas"]["Departures"];
+            starts?: components["schemas"]["DisplacedStarts"];
+        };
+        /** @description The same commands from the start that is said and from 24 beside it; where the request gives start_error */
+        DisplacedStarts: {
+            /** @description Standard deviation along each axis [m] */
+            position_m: number;
+            /** @description Standard deviation of the heading [deg] */
+            heading_deg: number;
+            /** @description How many */
+            starts: number;
+            /** @description From how many of them the drive is a GO on the mean soils */
+            go: number;
+            unknown: number;
+            no_go: number;
+            /** @description Of the most severe verdict; of these the start from which most rules are broken, then the one with most slip */
+            worst: {
+                /** @description Of the start that is said, along its heading [m] */
+                ahead_m: number;
+                /** @description Of the same [m] */
+                left_m: number;
+                /** @description To the left of its heading [deg] */
+                turned_deg: number;
+                verdict: components["schemas"]["Verdict"];
+                /** @description That decides it; null of a GO */
+                rule: components["schemas"]["JudgedRule"] | null;
+                /** @description On the mean soils */
+                max_slip_ratio: number;
+                /** @description Where the rule is broken; of a GO where it slips most */
+                x_m?: number;
+                y_m?: number;
+            };
         };
         /** @description When the drive may begin, and what must hold from the departure to the arrival: of what is not asked for nothing is judged */
         DepartureRequest: {
@@ -3292,13 +3330,13 @@ export interface components {
              * @description The last, within 100 days; the first when absent
              */
             to?: string;
-            /** @description Between the departures that are tried, at most 500 [min]; the ends of windows are then found to a second */
+            /** @description Between the departures that the answer lists, at most 500 [min]. The rules are looked at each minute, however few are listed */
             every_min?: number;
             /** @description Of the battery at the departure [%] */
             charge_percent?: number;
             /** @description Of the dust in the atmosphere */
             optical_depth?: number;
-            /** @description Temperature of the air over the day, for the heaters of the rover's file */
+            /** @description Temperature of the air over the day, for the heaters and the drive motors of the rover's file */
             air?: {
                 /** @description Of the day [degC] */
                 coldest_c: number;
@@ -3443,6 +3481,10 @@ export interface components {
                 charge_percent: number;
                 /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 charge_low_percent: number;
+                /** @description Of the drive motor that is worked hardest, at the median pace and energy [degC]; where the departure has air and the rover's file the motor's thermal numbers */
+                motor_c?: number;
+                /** @description The same when the rover is there at the 95th percentiles of both [degC] */
+                motor_slow_c?: number;
             }[];
         };
         /** @description When the drive may begin; where the request asks for it */
@@ -3502,7 +3544,7 @@ export interface components {
         };
         /** @description What one rule says of a drive: the probabilities of a halt, of being immobilised and of embedding, and every limit that breaks on the mean soils */
         JudgedRule: {
-            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics" | "charge" | "sun" | "earth" | "light_left" | "arrival";
+            rule: components["schemas"]["RuleName"] | "stop" | "keep_out" | "solver" | "dynamics" | "charge" | "sun" | "earth" | "light_left" | "arrival" | "motor_cold" | "motor_hot" | "start" | "ground";
             verdict: components["schemas"]["Verdict"];
             /** @description A sentence without its full stop */
             words: string;
@@ -3646,7 +3688,7 @@ export interface components {
             time_runs_out: components["schemas"]["PlaceOnWay"] | null;
             /** @description Where most draws halt; null where none does */
             worst: components["schemas"]["PlaceOnWay"] | null;
-            /** @description The check of the way from the worst place back to the start, driven backwards */
+            /** @description The check of the way from the worst place back to the start, driven backwards. With a departure of its own: when the rover is at that place at the slow pace, with what the battery then holds, under the same rules but for arrive_by */
             back_out: components["schemas"]["Check"] | null;
             plan: components["schemas"]["Plan"];
         };
@@ -7329,7 +7371,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description conflict: not ended yet; cancelled: dismissed */
+            /** @description conflict: not ended yet, or the terrain was replaced since; cancelled: dismissed */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -7995,7 +8037,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description conflict: not ended yet; cancelled: dismissed */
+            /** @description conflict: not ended yet, or the terrain was replaced since; cancelled: dismissed */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -8070,7 +8112,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description conflict: not ended yet; cancelled: dismissed */
+            /** @description conflict: not ended yet, or the terrain was replaced since; cancelled: dismissed */
             409: {
                 headers: {
                     [name: string]: unknown;

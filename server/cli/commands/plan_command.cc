@@ -22,6 +22,11 @@ Result<std::string> plan_request(const PlanOptions& options) {
   w.begin_object();
   if (auto written = write_drive(w, options.drive); !written) return fail(written.error());
   if (options.start) write_place(w.key("start"), *options.start);
+  if (!options.start_error.empty()) {
+    w.key("start_error").begin_object();
+    for (const std::string& setting : options.start_error) write_setting(w, setting);
+    w.end_object();
+  }
   if (options.goal) write_place(w.key("goal"), *options.goal);
   if (!options.via.empty()) {
     w.key("waypoints").begin_array();
@@ -127,6 +132,15 @@ constexpr const char* kPlanExample =
     "  slipway plan --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --commands route.json\n"
     "  slipway check --commands route.json";
 
+void add_ends(CLI::App& command, PlanOptions& options) {
+  add_place(command, "--start", options.start, "x,y or x,y,yaw_deg in map metres");
+  command.add_option("--start-error", options.start_error,
+                     "how wrong the start may be, NAME=VALUE: position_m along each axis and heading_deg, 1 "
+                     "sigma; the drive is judged from 25 starts");
+  add_place(command, "--goal", options.goal, "x,y or x,y,yaw_deg in map metres");
+  add_places(command, "--via", options.via, "waypoints in order");
+}
+
 }  // namespace
 
 void add_sol_command(CLI::App& app, std::function<int()>& run) {
@@ -136,9 +150,7 @@ void add_sol_command(CLI::App& app, std::function<int()>& run) {
   add_ask(*command, options->ask);
   add_why(*command, options->ask);
   add_drive(*command, options->drive);
-  add_place(*command, "--start", options->start, "x,y or x,y,yaw_deg in map metres");
-  add_place(*command, "--goal", options->goal, "x,y or x,y,yaw_deg in map metres");
-  add_places(*command, "--via", options->via, "waypoints in order");
+  add_ends(*command, *options);
   command->add_option("--routes", options->routes, "how many routes that differ");
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");
@@ -161,9 +173,7 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
                  "plan with the nominal model too, and print what the corrected one changes")
       ->needs(command->get_option("--model"))
       ->excludes(command->get_option("--map"));
-  add_place(*command, "--start", options->start, "x,y or x,y,yaw_deg in map metres");
-  add_place(*command, "--goal", options->goal, "x,y or x,y,yaw_deg in map metres");
-  add_places(*command, "--via", options->via, "waypoints in order");
+  add_ends(*command, *options);
   command->add_option("--routes", options->routes, "how many routes that differ");
   command->add_option("--verify", options->verify, "how many of the best routes to verify by dynamics");
   command->add_option("--weight", options->weights,

@@ -20,6 +20,7 @@ struct PlanOptions {
   std::string
       request;  // file with a whole request, "-" is standard input; the options below are then not used
   std::optional<PlaceOption> start, goal;
+  std::vector<std::string> start_error;  // "heading_deg=2"
   std::vector<PlaceOption> via;
   std::optional<int> routes, verify;
   std::vector<std::string> planners;

@@ -223,6 +223,14 @@ std::string departure_lines(const JsonValue& decision) {
   return out;
 }
 
+// What the drive is from other starts, where a decision says it and its first reason does not.
+std::string start_line(const JsonValue& decision) {
+  for (const JsonValue& rule : at(decision, "rules").elements)
+    if (text(rule, "rule") == "start" && text(rule, "words") != at(decision, "reasons").elements.front().text)
+      return fmt::format("The start: {}\n", text(rule, "words"));
+  return {};
+}
+
 // Each rule of the day with its verdict, at the best departure or the nearest.
 std::string day_lines(const JsonValue& decision) {
   const JsonValue* const departures = decision.find("departures");
@@ -304,7 +312,8 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
     TextTable table = figures_table("route");
     for (const JsonValue& route : summary)
       table.add(figures_row(fmt::format("{:.0f}", number(route, "rank")), route, text(route, "verdict")));
-    out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print() + departure_lines(decision);
+    out = verdict_line(decision) + advice_lines(decision) + "\n" + table.print() + departure_lines(decision) +
+          start_line(decision);
   }
   constexpr std::size_t kFew = 3;
   const JsonValue& fewer = at(*document, "fewer_because");
@@ -314,6 +323,18 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
   if (summary.empty()) return out;
   return why ? out + why_routes(*document) + learnt_lines(*document) : out + "Say more: --why\n";
 }
+
+namespace {
+
+// " from 2016-03-22 09:41 on with 57 %", of a check with a departure.
+std::string begun(const JsonValue& check) {
+  const JsonValue& departure = at(at(check, "request"), "departure");
+  if (is_null(departure)) return {};
+  return fmt::format(" from {} on with {:.0f} % in the battery", to_the_minute(text(departure, "from")),
+                     number(departure, "charge_percent"));
+}
+
+}  // namespace
 
 Result<std::string> sol_table(std::string_view answer, bool why) {
   const auto document = read(answer);
@@ -334,7 +355,8 @@ Result<std::string> sol_table(std::string_view answer, bool why) {
   const JsonValue& back = at(*document, "back_out");
   if (!is_null(back))
     *out += fmt::format(
-        "Backing out of it to the start: {}{}\n", planner::verdict_words(text(back, "verdict")),
+        "Backing out of it to the start{}: {}{}\n", begun(back),
+        planner::verdict_words(text(back, "verdict")),
         at(back, "reasons").elements.empty() ? "" : ", " + at(back, "reasons").elements.front().text);
   return out;
 }
