@@ -27,15 +27,7 @@ const Body* body_of(const std::string& name) {
   return found == std::end(kBodies) ? nullptr : found;
 }
 
-dem::BodyDegrees degrees_of(const TerrainSite& site) {
-  return dem::BodyDegrees(site.info().crs_wkt, site.info().body, site.info().geometry.extent());
-}
-
 }  // namespace
-
-std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const dem::MapPlace& place) {
-  return degrees_of(site).to_degrees(place);
-}
 
 double body_radius_m(const std::string& body) {
   const Body* const found = body_of(body);
@@ -44,8 +36,7 @@ double body_radius_m(const std::string& body) {
 
 double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
   constexpr double kStep_m = 1.0;
-  const dem::BodyDegrees degrees = degrees_of(site);
-  const auto here = degrees.to_degrees({x_m, y_m}), north = degrees.to_degrees({x_m, y_m + kStep_m});
+  const auto here = site.degrees_at({x_m, y_m}), north = site.degrees_at({x_m, y_m + kStep_m});
   if (!here || !north) return 0.0;
   // The bearing at which the great circle to the second place begins: right beside a pole, too.
   const double latitude = rad_from_deg(here->y), latitude_north = rad_from_deg(north->y);
@@ -58,7 +49,7 @@ double map_north_rad(const TerrainSite& site, double x_m, double y_m) {
 std::optional<std::string> why_no_sky(const TerrainSite& site) {
   const dem::Extent extent = site.info().geometry.extent();
   const dem::MapPlace middle{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
-  if (site.info().body == "Mars" && degrees_at(site, middle)) return std::nullopt;
+  if (site.info().body == "Mars" && site.degrees_at(middle)) return std::nullopt;
   return fmt::format("the terrain lies {}, where the sun's direction is not computed",
                      site.info().body == "Mars" || site.info().body == "other"
                          ? std::string("in a local frame")
@@ -105,7 +96,7 @@ Result<std::shared_ptr<const planner::Departure>> departure_of(const TerrainSite
              why || later) {
     return fail(ErrorCode::kInvalidRequest, why ? *why : *later,
                 {{why ? "/departure/from" : "/departure/to", why ? *why : *later}});
-  } else if (const auto degrees = degrees_at(site, {start.x_m, start.y_m})) {
+  } else if (const auto degrees = site.degrees_at({start.x_m, start.y_m})) {
     sky = std::make_shared<sky::MarsSky>(rad_from_deg(degrees->x), rad_from_deg(degrees->y));
   } else {
     return fail(ErrorCode::kInvalidRequest, "the start has no longitude and latitude on this map");

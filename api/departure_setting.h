@@ -7,16 +7,12 @@
 #include "api/files/terrain_site.h"
 #include "api/requests/plan_request.h"
 #include "core/result.h"
-#include "dem/body_degrees.h"
 #include "planner/problem/departure.h"
 
 namespace slipway::api {
 
 // Mean radius of a body by its name in ElevationInfo; infinite where it is not known.
 double body_radius_m(const std::string& body);
-
-// East longitude and latitude [deg] of a place of the map; nothing in a local frame.
-std::optional<dem::MapPlace> degrees_at(const TerrainSite& site, const dem::MapPlace& place);
 
 // How far the map's north stands clockwise of the true one at a place of the map; 0 in a local frame.
 double map_north_rad(const TerrainSite& site, double x_m, double y_m);

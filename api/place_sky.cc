@@ -60,7 +60,7 @@ Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::
   const dem::GridGeometry& geometry = site.info().geometry;
   if (!geometry.extent().contains(x_m, y_m))
     return fail(ErrorCode::kOffMap, fmt::format("({:g}, {:g}) lies off the map", x_m, y_m));
-  const auto degrees = degrees_at(site, {x_m, y_m});
+  const auto degrees = site.degrees_at({x_m, y_m});
   if (!degrees)
     return fail(ErrorCode::kInvalidRequest, "the place has no longitude and latitude on this map");
   if (!to_ms) {

@@ -37,12 +37,22 @@ std::vector<PlaceOnWay> checks_of(const sim::DrivePrediction& drive) {
   return checks;
 }
 
+// Where most draws halt, are embedded or break a limit.
 std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
-  if (!(drive.worst_place.value > 0.0)) return std::nullopt;
-  return place_at(
-      drive, drive.worst_place.distance_m,
-      fmt::format("{:.1f} % of the draws break a limit or are immobilised here, the most on the way",
-                  100.0 * drive.worst_place.value));
+  const sim::StationPrediction* worst = nullptr;
+  double most = 0.0;
+  for (const sim::StationPrediction& station : drive.stations) {
+    const double share = std::max(station.risk, station.stops + station.embedding);
+    if (share <= most) continue;
+    most = share;
+    worst = &station;
+  }
+  if (worst == nullptr) return std::nullopt;
+  return PlaceOnWay{
+      worst->station.distance_m, worst->station.pose.x_m, worst->station.pose.y_m,
+      fmt::format("{:.1f} % of the draws {} here, the most on the way", 100.0 * most,
+                  worst->stops + worst->embedding >= worst->risk ? "halt or are embedded"
+                                                                 : "break a limit or are immobilised")};
 }
 
 // Where a drive that leaves at the best moment, or the nearest, is at the slow pace when its time is over.

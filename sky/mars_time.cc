@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 #include "core/angle.h"
@@ -113,8 +114,10 @@ double terrestrial_days(std::int64_t utc_ms) {
   const double days = static_cast<double>(utc_ms) / kDayMs;
   const auto* next = std::upper_bound(kLeapSeconds.begin(), kLeapSeconds.end(), days,
                                       [](double day, const LeapSecond& leap) { return day < leap.from_day; });
-  const double tai_less_utc_s = next == kLeapSeconds.begin() ? 0.0 : std::prev(next)->tai_less_utc_s;
-  return days - kJ2000UnixDays + (tai_less_utc_s + 32.184) / kDay_s;
+  const double since = days - kJ2000UnixDays;
+  if (next != kLeapSeconds.begin()) return since + (std::prev(next)->tai_less_utc_s + 32.184) / kDay_s;
+  const double t = since / 36525.0;  // before there were leap seconds: the polynomial of Mars24
+  return since + (64.184 + t * (59.0 + t * (-51.2 + t * (-67.1 - 16.4 * t)))) / kDay_s;
 }
 
 MarsTime mars_time(std::int64_t utc_ms, double east_longitude_rad) {
@@ -133,11 +136,11 @@ MarsTime mars_time(std::int64_t utc_ms, double east_longitude_rad) {
 }
 
 std::optional<std::string> why_not_known(std::int64_t utc_ms) {
-  constexpr double kYear_ms = 365.2425 * 86.4e6;
-  const double year = 1970.0 + static_cast<double>(utc_ms) / kYear_ms;
-  if (year >= 1800.0 && year < 2151.0) return std::nullopt;
-  return fmt::format("sun and Earth over Mars are computed from 1800 to 2150, not for the year {:.0f}",
-                     std::floor(year));
+  const std::chrono::sys_time<std::chrono::milliseconds> time{std::chrono::milliseconds(utc_ms)};
+  const int year =
+      static_cast<int>(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(time)).year());
+  if (year >= 1800 && year <= 2150) return std::nullopt;
+  return fmt::format("sun and Earth over Mars are computed from 1800 to 2150, not for the year {}", year);
 }
 
 Bearing mars_sun(std::int64_t utc_ms, double east_longitude_rad, double latitude_rad) {

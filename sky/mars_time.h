@@ -13,7 +13,7 @@
 namespace slipway::sky {
 
 // Days of terrestrial time since J2000, of milliseconds of UTC since 1970. Leap seconds are those up to 2017,
-// of which none has followed yet; before 1972 none are counted.
+// of which none has followed yet; before 1972 the difference of the times is the polynomial of Mars24.
 double terrestrial_days(std::int64_t utc_ms);
 
 inline constexpr double kSol_s = 88'775.244;  // a mean solar day of Mars

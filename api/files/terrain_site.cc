@@ -268,6 +268,10 @@ Result<std::vector<TerrainFile>> TerrainSite::files() const {
   return files;
 }
 
+std::optional<dem::MapPlace> TerrainSite::degrees_at(const dem::MapPlace& place) const {
+  return dem::BodyDegrees(info().crs_wkt, info().body, info().geometry.extent()).to_degrees(place);
+}
+
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_elevation(const dem::Extent& extent) const {
   return elevation_->read(clipped(extent, info().geometry.extent()));
 }

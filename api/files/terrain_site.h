@@ -13,6 +13,7 @@
 #include "api/files/stops.h"
 #include "api/files/terrain_description.h"
 #include "core/result.h"
+#include "dem/body_degrees.h"
 #include "dem/elevation_source.h"
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
@@ -72,6 +73,8 @@ class TerrainSite {
   Result<std::vector<TerrainFile>> files() const;
   // The text of a file beside terrain.json; nothing where there is none.
   Result<std::optional<std::string>> text_of(const std::optional<std::string>& file) const;
+  // East longitude and latitude [deg] of a place of the map; nothing in a local frame.
+  std::optional<dem::MapPlace> degrees_at(const dem::MapPlace& place) const;
   // Elevation only.
   Result<std::shared_ptr<const dem::Terrain>> read_elevation(const dem::Extent& extent) const;
   // The same of a few cells around a point that lies on the map.

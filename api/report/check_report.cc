@@ -119,36 +119,6 @@ void add_position(ReportPage& page, const JsonValue& check) {
                         spread_words(at(uncertainty, "between_checks_m"))));
 }
 
-// The value as JSON on one line, cut where it is long.
-std::string shortened(const JsonValue& value) {
-  constexpr std::size_t kMost = 900;
-  json::Writer w;
-  json::write_value(w, value);
-  std::string words = w.take();
-  if (words.size() > kMost) words = words.substr(0, kMost) + " ... (whole in the JSON answer)";
-  return words;
-}
-
-void add_provenance(ReportPage& page, const JsonValue& check) {
-  const JsonValue& from = at(check, "provenance");
-  page.section("Request and provenance");
-  page.paragraph(ReportText({{shortened(at(check, "request")), ReportText::Style::kCode}}));
-  std::string soils;
-  for (const JsonValue& soil : at(from, "soils").elements) soils += (soils.empty() ? "" : ", ") + soil.text;
-  page.paragraph(fmt::format(
-      "Slipway {}; terrain {} ({}), fingerprint {}; gravity {:g} m/s2; soils {}; where no map names one: {}; "
-      "seed {:.0f}{}.",
-      text(from, "slipway"), text(from, "terrain_title"), text(from, "crs_name"),
-      text(from, "terrain_fingerprint"), number(from, "gravity_m_s2"), soils.empty() ? "none" : soils,
-      text(from, "unknown_soil"), number(from, "seed"),
-      has(from, "past_drives")
-          ? fmt::format(
-                "; the ground is what {:.0f} drives of the past and {:.0f} measured metres leave of it",
-                number(from, "past_drives"), number(from, "measured_m"))
-          : ""));
-  if (has(from, "soil_assumption")) page.paragraph(text(from, "soil_assumption"));
-}
-
 }  // namespace
 
 Result<std::string> check_report(const Catalogue& catalogue, std::string_view answer) {

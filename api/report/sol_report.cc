@@ -14,8 +14,11 @@
 #include "api/json/writer.h"
 #include "api/report/route_map.h"
 #include "api/report/verdict_sections.h"
+#include "core/angle.h"
 #include "core/utc.h"
 #include "planner/problem/verdict.h"
+#include "planner/timing/departures.h"
+#include "sky/mars_time.h"
 
 namespace slipway::api {
 namespace {
@@ -83,26 +86,54 @@ std::string day_charts(const JsonValue& departures, const JsonValue& drive) {
   return draw_charts("The day", charts);
 }
 
-void add_day(ReportPage& page, const JsonValue& departures) {
+// Times in UTC to the minute and, on Mars, in local true solar time at the start.
+struct DayClock {
+  std::optional<double> east_longitude_rad;
+
+  std::string words(std::int64_t utc_ms) const {
+    const std::string utc = utc_text(utc_ms);
+    std::string out = utc.substr(0, 10) + " " + utc.substr(11, 5) + " UTC";
+    if (!east_longitude_rad) return out;
+    const long minutes = std::lround(60.0 * sky::mars_time(utc_ms, *east_longitude_rad).true_solar_h) % 1440;
+    return out + fmt::format(" ({:02}:{:02} true solar time)", minutes / 60, minutes % 60);
+  }
+  std::string words(const std::string& time) const { return words(utc_of_text(time).value_or(0)); }
+};
+
+DayClock clock_at_start(const Catalogue& catalogue, const JsonValue& sol, const JsonValue& request) {
+  const auto site = catalogue.terrains.find(text(sol, "terrain"));
+  if (site == catalogue.terrains.end() || site->second->info().body != "Mars") return {};
+  const JsonValue& start = at(request, "start");
+  const auto degrees = site->second->degrees_at({number(start, "x_m"), number(start, "y_m")});
+  if (!degrees) return {};
+  return {rad_from_deg(degrees->x)};
+}
+
+void add_day(ReportPage& page, const JsonValue& departures, const JsonValue& asked, const DayClock& clock) {
   page.section("The day");
-  for (const JsonValue& window : at(departures, "windows").elements)
-    page.item(fmt::format("Depart between {} and {}", text(window, "from"), text(window, "to")));
+  for (const JsonValue& window : at(departures, "windows").elements) {
+    const planner::DepartureWindow minutes = planner::to_the_minute(
+        {utc_of_text(text(window, "from")).value_or(0), utc_of_text(text(window, "to")).value_or(0)});
+    page.item(
+        fmt::format("Depart between {} and {}", clock.words(minutes.from_ms), clock.words(minutes.to_ms)));
+  }
   const JsonValue& drive = at(departures, has(departures, "best") ? "best" : "nearest");
-  page.paragraph(
-      fmt::format("{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
-                  "{:.0f} % of the "
-                  "time. The battery holds {:.0f} % at the arrival ({:.0f} % at the worse pace): {:.0f} Wh "
-                  "gained, {:.0f} Wh "
-                  "used, {:.0f} Wh spilled.",
-                  has(departures, "best") ? "Best at" : "No departure keeps the rules of the day; nearest is",
-                  text(drive, "departs"), text(drive, "arrives"), text(drive, "arrives_late"),
-                  100.0 * number(drive, "lit_share"), number(drive, "charge_percent"),
-                  number(drive, "charge_low_percent"), number(drive, "gained_wh"), number(drive, "used_wh"),
-                  number(drive, "spilled_wh")));
+  page.paragraph(fmt::format(
+      "{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
+      "{:.0f} % of the time. The battery holds {:.1f} % at the departure and {:.1f} % at the "
+      "arrival ({:.1f} % at the worse pace): {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh spilled. "
+      "The optical depth of the air is {:g}.",
+      has(departures, "best") ? "Best at" : "No departure keeps the rules of the day; nearest is",
+      clock.words(text(drive, "departs")), clock.words(text(drive, "arrives")),
+      clock.words(text(drive, "arrives_late")), 100.0 * number(drive, "lit_share"),
+      number(asked, "charge_percent"), number(drive, "charge_percent"), number(drive, "charge_low_percent"),
+      number(drive, "gained_wh"), number(drive, "used_wh"), number(drive, "spilled_wh"),
+      number(asked, "optical_depth")));
   if (has(departures, "halt"))
     page.paragraph(
         fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
-                    "day. The commands hold no wait; give it between them.",
+                    "day. The commands hold no wait: split the one that is under way there, and wait between "
+                    "its parts.",
                     number(at(departures, "halt"), "hours"), number(at(departures, "halt"), "at_m")));
   page.picture({"day", day_charts(departures, drive)},
                "Along the way from the departure above; \"By departure\": every departure that was tried");
@@ -140,7 +171,10 @@ void add_places(ReportPage& page, const JsonValue& sol) {
                                text(at(sol, "worst"), "why")));
   else
     page.paragraph("No draw of the ground halts the rover.");
-  if (!has(sol, "back_out")) return;
+  if (!has(sol, "back_out")) {
+    if (has(sol, "worst")) page.paragraph("It is so near the start that no way back was checked.");
+    return;
+  }
   const JsonValue& back = at(sol, "back_out");
   const JsonValue& request = at(back, "request");
   const std::string begun = has(request, "departure")
@@ -148,10 +182,11 @@ void add_places(ReportPage& page, const JsonValue& sol) {
                                               text(at(request, "departure"), "from"),
                                               number(at(request, "departure"), "charge_percent"))
                                 : std::string();
-  page.paragraph(fmt::format(
-      "Backing out of it to the start{} is {}: {}.", begun, planner::verdict_words(text(back, "verdict")),
-      at(back, "reasons").elements.empty() ? std::string("no reason")
-                                           : at(back, "reasons").elements.front().text));
+  page.paragraph(
+      fmt::format("Backing out of it to the start{} is {}: {}. Distances here count from the worst place.",
+                  begun, planner::verdict_words(text(back, "verdict")),
+                  at(back, "reasons").elements.empty() ? std::string("no reason")
+                                                       : at(back, "reasons").elements.front().text));
 }
 
 void add_commands(ReportPage& page, const JsonValue& route) {
@@ -193,10 +228,13 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
   json::Writer w;
   json::write_value(w, plan);
   add_map(page, draw_route_map(catalogue, w.take()), "The routes of the plan, by slip");
-  if (has(decision, "departures")) add_day(page, at(decision, "departures"));
+  if (has(decision, "departures"))
+    add_day(page, at(decision, "departures"), at(at(plan, "request"), "departure"),
+            clock_at_start(catalogue, *sol, at(plan, "request")));
   add_start(page, decision);
   add_places(page, *sol);
   add_commands(page, route);
+  add_provenance(page, plan);
   return page.html();
 }
 

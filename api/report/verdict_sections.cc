@@ -1,9 +1,12 @@
 #include "api/report/verdict_sections.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
 #include "api/json/lookup.h"
+#include "api/json/writer.h"
 #include "planner/problem/verdict.h"
 
 namespace slipway::api {
@@ -14,6 +17,26 @@ using json::JsonValue;
 using json::number;
 using json::text;
 
+namespace {
+
+// The value as JSON on one line, cut where it is long.
+std::string shortened(const JsonValue& value) {
+  constexpr std::size_t kMost = 900;
+  json::Writer w;
+  json::write_value(w, value);
+  std::string words = w.take();
+  if (words.size() > kMost) words = words.substr(0, kMost) + " ... (whole in the JSON answer)";
+  return words;
+}
+
+// From some start that the rover may have it is no GO.
+bool hangs_on_start(const JsonValue& decision) {
+  const JsonValue& starts = at(decision, "starts");
+  return number(starts, "go") < number(starts, "starts");
+}
+
+}  // namespace
+
 void add_verdict_banner(ReportPage& page, const JsonValue& document) {
   const std::string& verdict = text(document, "verdict");
   page.banner(std::string(planner::verdict_words(verdict)), verdict == "go"      ? ReportPage::Tone::kGood
@@ -21,19 +44,22 @@ void add_verdict_banner(ReportPage& page, const JsonValue& document) {
                                                                                  : ReportPage::Tone::kOpen);
 }
 
+std::string_view without_advice(const JsonValue& decision) {
+  if (hangs_on_start(decision))
+    return "knowing better where the rover stands and how it is turned, before it drives";
+  if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
+    return "another time or more charge: no departure that was asked for keeps the rules of the day, nor "
+           "does a "
+           "shorter drive";
+  return "another way or another goal; no shorter drive and no scout drive does";
+}
+
 void add_advice(ReportPage& page, const JsonValue& decision) {
   if (text(decision, "verdict") == "go") return;
   page.section("What would change it");
   const auto& advice = at(decision, "advice").elements;
   for (const JsonValue& each : advice) page.item(text(each, "words"));
-  const JsonValue& starts = at(decision, "starts");
-  const bool hangs_on_start = number(starts, "go") < number(starts, "starts");
-  if (hangs_on_start)
-    page.item("To know better where the rover stands and how it is turned, before it drives");
-  if (advice.empty() && !hangs_on_start)
-    page.item("Another way or another goal; no shorter drive and no scout drive does");
-  if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
-    page.item("Other departures, or more charge: none of those asked for keeps the rules of the day");
+  if (advice.empty() || hangs_on_start(decision)) page.item(std::string(without_advice(decision)));
 }
 
 void add_map(ReportPage& page, Result<std::string> map, std::string_view caption) {
@@ -41,6 +67,26 @@ void add_map(ReportPage& page, Result<std::string> map, std::string_view caption
     page.picture({"map", *std::move(map)}, std::string(caption));
   else
     page.paragraph("There is no map here: " + map.error().detail);
+}
+
+void add_provenance(ReportPage& page, const JsonValue& document) {
+  const JsonValue& from = at(document, "provenance");
+  page.section("Request and provenance");
+  page.paragraph(ReportText({{shortened(at(document, "request")), ReportText::Style::kCode}}));
+  std::string soils;
+  for (const JsonValue& soil : at(from, "soils").elements) soils += (soils.empty() ? "" : ", ") + soil.text;
+  page.paragraph(fmt::format(
+      "Slipway {}; terrain {} ({}), fingerprint {}; gravity {:g} m/s2; soils {}; where no map names one: {}; "
+      "seed {:.0f}{}.",
+      text(from, "slipway"), text(from, "terrain_title"), text(from, "crs_name"),
+      text(from, "terrain_fingerprint"), number(from, "gravity_m_s2"), soils.empty() ? "none" : soils,
+      text(from, "unknown_soil"), number(from, "seed"),
+      has(from, "past_drives")
+          ? fmt::format(
+                "; the ground is what {:.0f} drives of the past and {:.0f} measured metres leave of it",
+                number(from, "past_drives"), number(from, "measured_m"))
+          : ""));
+  if (has(from, "soil_assumption")) page.paragraph(text(from, "soil_assumption"));
 }
 
 }  // namespace slipway::api

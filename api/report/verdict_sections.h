@@ -12,10 +12,16 @@ namespace slipway::api {
 // What every page of a decided drive begins with: the verdict in its colour.
 void add_verdict_banner(ReportPage& page, const json::JsonValue& document);
 
+// What would change a verdict that is no GO where its decision has no advice that does.
+std::string_view without_advice(const json::JsonValue& decision);
+
 // What would change a verdict that is no GO; nothing for a GO. `decision` has the verdict and the advice.
 void add_advice(ReportPage& page, const json::JsonValue& decision);
 
 // A map of an answer, or why there is none: an old answer's page is still whole without it.
 void add_map(ReportPage& page, Result<std::string> map, std::string_view caption);
+
+// The request and what the answer was computed with.
+void add_provenance(ReportPage& page, const json::JsonValue& document);
 
 }  // namespace slipway::api

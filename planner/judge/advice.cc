@@ -92,6 +92,7 @@ std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePr
   constexpr double kLeastHope = 0.1;
   const sim::OutcomeBars& bars = problem.risk.bars;
   if (verdict.verdict != Verdict::kUnknown || !drive.scout || hangs_on_start(verdict)) return std::nullopt;
+  if (verdict.departures && !verdict.departures->is_kept()) return std::nullopt;  // no slip mends the day
   const sim::ScoutDrive& scout = *drive.scout;
   if (scout.go < kLeastHope || scout.embedding >= bars.max_embedding ||
       scout.expected_stops >= bars.no_go_stop)

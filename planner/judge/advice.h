@@ -20,8 +20,8 @@ std::optional<Advice> shorter_drive(const PlanProblem& problem, const std::vecto
                                     const sim::DrivePrediction& drive, const DriveVerdict& verdict,
                                     Progress& progress);
 
-// A scout drive that would make a drive which is UNKNOWN a GO with a probability of a tenth or more, and
-// that keeps the bars itself.
+// A scout drive that would make a drive which is UNKNOWN for its ground a GO with a probability of a tenth or
+// more, and that keeps the bars itself.
 std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePrediction& drive,
                                   const DriveVerdict& verdict);
 

@@ -63,8 +63,8 @@ struct TimedDrive {
   // In Wh: charge at the start + gained - used - spilled = charge at the end. Spilled: what a full battery
   // can't take.
   double gained_wh = 0.0, used_wh = 0.0, spilled_wh = 0.0;
-  std::vector<TimedStation> stations;
-  std::vector<JudgedRule> rules;  // each with its verdict, GO or NO-GO
+  std::vector<TimedStation> stations;  // as far as the sun is known
+  std::vector<JudgedRule> rules;
 };
 
 struct DepartureWindow {
@@ -80,8 +80,8 @@ struct ChargingHalt {
 // What the times of day make of one route.
 struct Departures {
   std::vector<DepartureWindow> windows;  // in which all rules hold
-  // The one that keeps most in the battery of those in windows; without a window the one that `halt` makes
-  // keep the rules; without either what fails least.
+  // Of those in windows the one with most in the battery at the arrival, at the worse pace; without a window
+  // the one that `halt` makes keep the rules and that arrives first; without either what fails least.
   TimedDrive drive;
   std::optional<ChargingHalt> halt = {};
   std::vector<TimedDrive> tried;  // without stations, by rising departure, as often as asked for

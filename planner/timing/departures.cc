@@ -68,14 +68,6 @@ std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t b
   return good;
 }
 
-// Readers cut the seconds off: the whole minutes within, where there are any.
-DepartureWindow to_the_minute(const DepartureWindow& window) {
-  using std::chrono::milliseconds, std::chrono::minutes;
-  const milliseconds from = std::chrono::ceil<minutes>(milliseconds(window.from_ms));
-  const milliseconds to = std::chrono::floor<minutes>(milliseconds(window.to_ms));
-  return from <= to ? DepartureWindow{from.count(), to.count()} : window;
-}
-
 struct WithHalt {
   ChargingHalt halt;
   TimedDrive drive;
@@ -107,6 +99,13 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, con
 
 }  // namespace
 
+DepartureWindow to_the_minute(const DepartureWindow& window) {
+  using std::chrono::milliseconds, std::chrono::minutes;
+  const milliseconds from = std::chrono::ceil<minutes>(milliseconds(window.from_ms));
+  const milliseconds to = std::chrono::floor<minutes>(milliseconds(window.to_ms));
+  return from <= to ? DepartureWindow{from.count(), to.count()} : window;
+}
+
 Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, Progress& progress) {
   Departure at_hand = departure;
@@ -126,7 +125,7 @@ Departures departures_of(const Departure& departure, const sim::RoverModel& rove
   const auto looks = static_cast<std::int64_t>(
       std::ceil(static_cast<double>(step_ms) / std::max(kLook_ms, span_ms / kMostLooks)));
   const auto is_nearer = [](const TimedDrive& a, const TimedDrive& b) {
-    return std::pair(broken(a), -a.least_charge_low) < std::pair(broken(b), -b.least_charge_low);
+    return std::pair(broken(a), -a.charge_at_arrival_low) < std::pair(broken(b), -b.charge_at_arrival_low);
   };
   std::optional<TimedDrive> nearest;
   std::optional<std::int64_t> before;  // the moment looked at before this one
@@ -165,8 +164,10 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
   for (const JudgedRule& rule : drive.rules)
     if (rule.verdict != Verdict::kGo) why.push_back(rule.words);
   if (!departures.is_kept() && !why.empty()) {
-    std::string words = fmt::format("no departure keeps the rules of the day; at {} {}",
-                                    utc_text(drive.departs_ms), why.front());
+    const bool is_open = broken(drive).first == severity(Verdict::kUnknown);
+    std::string words =
+        fmt::format("no departure {} the rules of the day; at {} {}", is_open ? "is known to keep" : "keeps",
+                    utc_text(drive.departs_ms), why.front());
     for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
     const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));

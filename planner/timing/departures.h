@@ -14,6 +14,9 @@ namespace slipway::planner {
 Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, Progress& progress);
 
+// The whole minutes within a window, where there are any: readers cut the seconds off.
+DepartureWindow to_the_minute(const DepartureWindow& window);
+
 // What the drive that was found makes of a verdict.
 void judge_departures(const Departures& departures, DriveVerdict& verdict);
 

@@ -46,14 +46,22 @@ struct DriveInTime::Course {
   double charge = 1.0, least_charge = 1.0;
   double lit_s = 0.0, total_s = 0.0;
   double gained_wh = 0.0, used_wh = 0.0, spilled_wh = 0.0;
+  // The least of a value on the way, and where it first falls below its limit.
   struct Least {
+    double limit = 0.0;
     double value = std::numeric_limits<double>::infinity();
     double at_m = 0.0;
+    std::optional<double> broken_m = {};
     void lower(double other, double other_at_m) {
-      if (other < value) *this = {other, other_at_m};
+      if (other < limit && !broken_m) broken_m = other_at_m;
+      if (other < value) {
+        value = other;
+        at_m = other_at_m;
+      }
     }
   };
-  Least charge_at, sun_rad, earth_rad;
+  // Sun, Earth and charge as far as sun and Earth are known.
+  Least charge_known, sun_rad, earth_rad;
   Least over_coldest_k, below_warmest_k;            // what the drive motors have left to their limits
   bool sun_is_known = true, earth_is_known = true;  // all the way
 };
@@ -69,6 +77,7 @@ DriveInTime::DriveInTime(const Departure& departure, const sim::RoverModel& rove
   const std::vector<sim::StationPrediction>& stations = prediction.stations;
   const std::size_t step = 1 + stations.size() / kMostPlaces;
   double since_s = 0.0, before_s = 0.0;
+  Eigen::Vector3d since_up = Eigen::Vector3d::Zero();
   Eigen::Array3d since_j = Eigen::Array3d::Zero();  // of the motors, and of the greatest and the least losses
   for (std::size_t k = 0; k < stations.size() && !progress.cancelled(); ++k) {
     const sim::StationPrediction& at = stations[k];
@@ -76,6 +85,8 @@ DriveInTime::DriveInTime(const Departure& departure, const sim::RoverModel& rove
     const Eigen::Array3d here_w(at.state.electric_power_w, losses.most_w, losses.least_w);
     since_s += at.elapsed_s - before_s;
     since_j += here_w * (at.elapsed_s - before_s);
+    const Eigen::Vector3d up = rotation_MB(at.state.attitude).col(2);
+    since_up += up * (at.elapsed_s - before_s);
     before_s = at.elapsed_s;
     if (k % step != 0 && k + 1 != stations.size()) continue;
     const Eigen::Array3d mean_w = since_s > 0.0 ? Eigen::Array3d(since_j / since_s) : here_w;
@@ -85,10 +96,11 @@ DriveInTime::DriveInTime(const Departure& departure, const sim::RoverModel& rove
                 {mean_w[1], mean_w[2]},
                 at.station.pose.x_m,
                 at.station.pose.y_m,
-                rotation_MB(at.state.attitude).col(2),
+                since_s > 0.0 ? Eigen::Vector3d(since_up / since_s) : up,
                 {}};
     since_s = 0.0;
     since_j.setZero();
+    since_up.setZero();
     if (departure.horizon) {
       auto horizon =
           departure.horizon->all_around_rad(at.station.pose.x_m, at.station.pose.y_m, kEye_m, kDirections);
@@ -147,6 +159,9 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
                                      std::vector<TimedStation>* stations) const {
   Course course;
   course.charge = departure_.charge;
+  course.charge_known.limit = departure_.rules.min_charge.value_or(0.0);
+  course.sun_rad.limit = departure_.rules.min_sun_rad.value_or(kHidden_rad);
+  course.earth_rad.limit = departure_.rules.min_earth_rad.value_or(kHidden_rad);
   std::int64_t now = departs_ms;
   // Of the motor that loses most and of the one that loses least, over what follows the air alone.
   double most_k = 0.0, least_k = 0.0;
@@ -166,23 +181,21 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     const double over = sun ? over_horizon_rad(place, *sun) : 0.0;
     const bool is_lit = sun && over > 0.0;
     course.sun_is_known &= sun.has_value();
-    course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
+    if (sun) course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
     if (departure_.rules.min_earth_rad) {
       const auto earth = departure_.sky->earth(middle);
       const bool in_sight = earth && over_horizon_rad(place, *earth) > 0.0;
-      course.earth_rad.lower(in_sight ? earth->elevation_rad : kHidden_rad, distance_m);
+      if (earth) course.earth_rad.lower(in_sight ? earth->elevation_rad : kHidden_rad, distance_m);
       course.earth_is_known &= earth.has_value();
     }
     double in_w = 0.0, out_w = 0.0;
     if (supply_) {
       in_w = supply_->constant_w;
-      if (sun && supply_->array_m2 > 0.0) {
-        const Light light =
+      if (sun && supply_->has_array()) {
+        Light light =
             light_of(sun->elevation_rad, departure_.sky->sun_distance_au(middle), departure_.optical_depth);
-        const double on_cells =
-            light.diffuse_w_m2 +
-            (is_lit ? light.beam_w_m2 * std::max(0.0, sky::towards(*sun).dot(place.up)) : 0.0);
-        in_w += supply_->array_m2 * supply_->array_efficiency * supply_->array_clean * on_cells;
+        if (!is_lit) light.beam_w_m2 = 0.0;
+        in_w += supply_->array_w(light.beam_w_m2, sky::towards(*sun).dot(place.up), light.diffuse_w_m2);
       }
       out_w = effort ? place.motors_w * *effort + supply_->driving_w : supply_->standing_w;
       if (air_ && air_->at_c(middle) < supply_->heating_below_c) out_w += supply_->heating_w;
@@ -196,7 +209,8 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
       }
       course.charge = held_wh / supply_->battery_wh;
     }
-    course.charge_at.lower(course.charge, distance_m);
+    if (course.sun_is_known || !(supply_ && supply_->has_array()))
+      course.charge_known.lower(course.charge, distance_m);
     course.least_charge = std::min(course.least_charge, course.charge);
     course.total_s += seconds;
     if (is_lit) course.lit_s += seconds;
@@ -218,7 +232,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     const double seconds = pace.time * (place.elapsed_s - before_s);
     // What more energy is needed goes into the same time's power.
     const TimedStation at = spend(place, seconds, pace.energy / pace.time);
-    if (stations != nullptr) stations->push_back(at);
+    if (stations != nullptr && course.sun_is_known) stations->push_back(at);
     if (halted || place.distance_m < halt->at_m) continue;
     halted = true;
     for (double left = halt->hours * kHour_s; left > 0.0; left -= kHaltStep_s)
@@ -263,28 +277,42 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
   const DepartureRules& rules = departure_.rules;
   const auto add = [&](std::string name, bool is_known, double value, double low, double limit,
                        std::string unit, std::optional<double> at_m, std::string words) {
-    JudgedRule rule{.name = std::move(name), .verdict = low >= limit ? Verdict::kGo : Verdict::kNoGo};
+    // What is broken stays so, whatever is not known.
+    const bool is_open = low >= limit && !is_known;
+    JudgedRule rule{.name = std::move(name),
+                    .verdict = low < limit ? Verdict::kNoGo
+                               : is_known  ? Verdict::kGo
+                                           : Verdict::kUnknown};
     rule.value = rule.high = value;
     rule.low = low;
     rule.go_below = rule.no_go_above = limit;
     rule.unit = std::move(unit);
     rule.at_m = at_m;
-    rule.words = std::move(words);
-    if (!is_known) {
-      rule.verdict = Verdict::kUnknown;
-      rule.words = fmt::format("the table of the sky ends before {} is known", rule.name);
-    }
+    rule.words =
+        is_open ? fmt::format("the table of the sky ends before {} is known: give a longer one", rule.name)
+                : std::move(words);
     drive.rules.push_back(std::move(rule));
   };
   const bool sun_is_known = usual.sun_is_known && slow.sun_is_known;
   if (supply_) {
-    const Course& least = usual.least_charge < slow.least_charge ? usual : slow;
-    const double limit = 100.0 * rules.min_charge.value_or(0.0);
-    add("charge", sun_is_known || supply_->array_m2 <= 0.0, 100.0 * usual.least_charge,
-        100.0 * least.least_charge, limit, "%", least.charge_at.at_m,
-        fmt::format(
-            "the battery falls to {:.0f} %, at the worse pace to {:.0f} % at {:.1f} m, limit {:.0f} %",
-            100.0 * usual.least_charge, 100.0 * least.least_charge, least.charge_at.at_m, limit));
+    const double least = std::min(usual.least_charge, slow.least_charge);
+    const Course::Least& known =
+        usual.charge_known.value < slow.charge_known.value ? usual.charge_known : slow.charge_known;
+    // Without any sun from where the table ends there is no less.
+    const bool is_known = sun_is_known || !supply_->has_array() || least >= known.limit;
+    const double low = is_known ? least : std::min(known.value, departure_.charge);
+    add("charge", is_known, 100.0 * usual.least_charge, 100.0 * low, 100.0 * known.limit, "%",
+        known.broken_m.value_or(known.at_m),
+        !known.broken_m
+            ? fmt::format("the battery holds {:.1f} % or more, at the worse pace {:.1f} %, limit {:g} %",
+                          100.0 * usual.least_charge, 100.0 * low, 100.0 * known.limit)
+        : low < 0.0
+            ? fmt::format("the battery falls below the limit of {:g} % at {:.1f} m, and is empty before "
+                          "the arrival",
+                          100.0 * known.limit, *known.broken_m)
+            : fmt::format("the battery falls below the limit of {:g} % at {:.1f} m, to {:.1f} % at its "
+                          "lowest",
+                          100.0 * known.limit, *known.broken_m, 100.0 * low));
   }
   if (motor_) {
     const auto motors = [&](const char* name, double sign, std::optional<double> limit_c,
@@ -306,9 +334,10 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     const bool hidden = least.value <= kHidden_rad;
     // What is hidden is below every limit.
     const double limit_deg = std::max(deg_from_rad(limit_rad), -90.0 + 1e-9);
-    add(name, is_known, deg_from_rad(a.value), deg_from_rad(least.value), limit_deg, "deg", least.at_m,
-        hidden ? fmt::format("{} is not in sight at {:.1f} m", what, least.at_m)
-               : fmt::format("{} stands {:.1f} deg high at {:.1f} m, limit {:.1f} deg", what,
+    add(name, is_known, deg_from_rad(a.value), deg_from_rad(least.value), limit_deg, "deg",
+        least.broken_m.value_or(least.at_m),
+        hidden ? fmt::format("{} is not in sight at {:.1f} m", what, least.broken_m.value_or(least.at_m))
+               : fmt::format("{} stands {:.2f} deg high at {:.1f} m, limit {:.2f} deg", what,
                              deg_from_rad(least.value), least.at_m, limit_deg));
   };
   if (rules.min_sun_rad)
@@ -320,10 +349,10 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     const double enough = *rules.light_left_s;
     const auto at_usual = light_left_s(usual.arrives_ms, enough),
                at_slow = light_left_s(slow.arrives_ms, enough);
-    const double left = at_slow.value_or(0.0);
-    add("light_left", at_usual && at_slow, at_usual.value_or(0.0) / kHour_s, left / kHour_s, enough / kHour_s,
-        "h", {},
-        left < enough ? fmt::format("{:.2f} h of light are left at the arrival, limit {:.2f} h",
+    const double left = at_slow.value_or(enough);
+    add("light_left", at_usual && at_slow, at_usual.value_or(enough) / kHour_s, left / kHour_s,
+        enough / kHour_s, "h", {},
+        left < enough ? fmt::format("{:.3g} h of light are left at the arrival, limit {:.3g} h",
                                     left / kHour_s, enough / kHour_s)
                       : fmt::format("{:.2f} h of light or more are left at the arrival", enough / kHour_s));
   }

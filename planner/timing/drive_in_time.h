@@ -32,12 +32,12 @@ class DriveInTime {
                 const std::optional<ChargingHalt>& halt = std::nullopt) const;
 
  private:
-  // Of a place on the way; motors_w and losses are means since the place before.
+  // Of a place on the way; motors_w, losses and up are means since the place before.
   struct Place {
     double distance_m, elapsed_s, motors_w;
     MotorLosses losses;
     double x_m, y_m;
-    Eigen::Vector3d up;               // of the body
+    Eigen::Vector3d up;               // of the body; shorter than 1 where it turned
     std::vector<double> horizon_rad;  // all around; empty where it is not known
     // In 1440 directions, each looked at when a body stands close to the horizon there; else NaN.
     mutable std::vector<float> fine_rad = {};

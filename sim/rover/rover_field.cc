@@ -166,6 +166,13 @@ constexpr std::array kPower{
         .number = [](PowerSupply& p) -> double& { return p.array_m2; },
         .presence = kOptional},
     ModelField<PowerSupply>{
+        .field = {"upright_array_m2", "m^2",
+                  "of solar cells that stand upright around the body, as much to each side", 0.0, 1000.0,
+                  0.0},
+        .number = [](PowerSupply& p) -> double& { return p.upright_array_m2; },
+        .presence = kOptional,
+        .writing = kUnlessInitial},
+    ModelField<PowerSupply>{
         .field = {"array_efficiency", "1", "power over the light on clean cells", 0.0, 1.0, 0.2},
         .number = [](PowerSupply& p) -> double& { return p.array_efficiency; },
         .presence = kOptional},

@@ -243,6 +243,96 @@ TEST(Departures, WhereTheSkyIsNotKnownItsRulesAreOpen) {
   EXPECT_EQ(departures_of(departure, kUnpowered, prediction, progress).windows.size(), 1U);
 }
 
+// What is broken before the table ends stays broken, and what holds without any sun behind it holds.
+TEST(Departures, WhereTheTableEndsOnTheWayWhatIsKnownDecides) {
+  Departure departure = a_day();
+  departure.sky = std::make_shared<sky::SkyTable>(
+      std::vector<sky::SkySample>{{0, {0.0, 0.1}, {}, 1.5}, {kHour_ms, {0.1, 0.1}, {}, 1.5}});
+  departure.to_ms = 0;
+  departure.rules.min_sun_rad = 0.5;
+  departure.rules.min_charge = 0.1;
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  Departures found = departures_of(departure, kOnCells, prediction, progress);
+  ASSERT_EQ(found.drive.rules.size(), 2U);
+  EXPECT_EQ(found.drive.rules[0].name, "charge");
+  EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kGo) << found.drive.rules[0].words;
+  EXPECT_EQ(found.drive.rules[1].verdict, Verdict::kNoGo) << found.drive.rules[1].words;
+  EXPECT_LT(found.drive.stations.size(), 60U) << "nothing is told of where the sun is not known";
+  departure.rules.min_charge = 0.9;
+  found = departures_of(departure, kOnCells, prediction, progress);
+  EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kNoGo) << "in the first hour already";
+  departure.rules.min_charge = 0.55;
+  found = departures_of(departure, kOnCells, prediction, progress);
+  EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kUnknown) << found.drive.rules[0].words;
+}
+
+TEST(Departures, TheBestHasMostInTheBatteryAtTheArrival) {
+  Departure departure = a_day();
+  departure.charge = 0.6;
+  departure.rules.min_sun_rad = rad_from_deg(20.0);
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures found = departures_of(departure, kOnCells, prediction, progress);
+  ASSERT_FALSE(found.windows.empty());
+  for (const TimedDrive& tried : found.tried)
+    if (holds(tried)) {
+      EXPECT_LE(tried.charge_at_arrival_low, found.drive.charge_at_arrival_low + 1e-12);
+    }
+}
+
+// The place of a broken rule is where it breaks first, so that a shorter drive is looked for before it.
+TEST(DriveInTime, AChargeIsBrokenWhereItFirstFallsBelowItsLimit) {
+  Departure departure = a_day();
+  departure.charge = 0.5;
+  departure.rules.min_charge = 0.4;
+  const sim::DrivePrediction prediction = two_hours();
+  const TimedDrive night = DriveInTime(departure, kOnCells, prediction, kNoProgress).at(0);
+  ASSERT_EQ(night.rules.size(), 1U);
+  EXPECT_EQ(night.rules[0].verdict, Verdict::kNoGo);
+  // 30 Wh at up to 140 W over 1.5 h at the worse pace.
+  ASSERT_TRUE(night.rules[0].at_m);
+  EXPECT_GT(*night.rules[0].at_m, 5.0);
+  EXPECT_LT(*night.rules[0].at_m, 20.0);
+}
+
+// A body that rocks from station to station has the light of all of them, however few are looked at.
+TEST(DriveInTime, TheLightIsThatOfAllStations) {
+  const auto drive_of = [](int stations, auto roll_deg) {
+    sim::DrivePrediction drive = two_hours();
+    const sim::StationPrediction first = drive.stations.front();
+    drive.stations.clear();
+    for (int k = 0; k <= stations; ++k) {
+      sim::StationPrediction at = first;
+      at.station.distance_m = 100.0 * k / stations;
+      at.elapsed_s = 2.0 * kHour_s * k / stations;
+      at.state.attitude.roll_rad = rad_from_deg(roll_deg(k));
+      drive.stations.push_back(at);
+    }
+    return drive;
+  };
+  const Departure departure = a_day();
+  const auto gained = [&](const sim::DrivePrediction& prediction) {
+    return DriveInTime(departure, kOnCells, prediction, kNoProgress).at(11 * kHour_ms).gained_wh;
+  };
+  const double south = gained(drive_of(2000, [](int) { return 15.0; })),
+               north = gained(drive_of(2000, [](int) { return -15.0; })),
+               both = gained(drive_of(2000, [](int k) { return k % 6 == 0 ? 15.0 : -15.0; }));
+  EXPECT_NEAR(both, (south + 5.0 * north) / 6.0, 2e-3 * both);
+}
+
+// At a pole cells that lie flat have next to nothing.
+TEST(PowerSupply, UprightCellsHaveALowSunFromEverySide) {
+  sim::PowerSupply supply{.array_efficiency = 0.3};
+  supply.array_m2 = 1.0;
+  const double up = std::sin(rad_from_deg(1.5));
+  EXPECT_NEAR(supply.array_w(1361.0, up, 0.0), 0.3 * 1361.0 * up, 1e-9);
+  supply.array_m2 = 0.0;
+  supply.upright_array_m2 = std::numbers::pi;
+  EXPECT_NEAR(supply.array_w(1361.0, up, 0.0), 0.3 * 1361.0 * std::cos(rad_from_deg(1.5)), 1e-9);
+  EXPECT_EQ(supply.array_w(1361.0, 1.0, 0.0), 0.0) << "straight overhead";
+}
+
 TEST(Departures, AnEmptyBatteryIsANoGoWithoutBeingAsked) {
   Departure departure = a_day();
   departure.to_ms = 0;

@@ -105,12 +105,12 @@ TEST(DisplacedStarts, BesideGroundThatIsNotKnownTheyAreOpen) {
 
 TEST(DisplacedStarts, AMirroredMapHasTheMirroredAnswer) {
   const auto hills_m = [](double x, double y) {
-    return 1.1 * std::sin(0.21 * x + 0.4) * std::sin(0.17 * y) + 0.5 * std::sin(0.11 * x - 0.23 * y);
+    return 0.66 * std::sin(0.21 * x + 0.4) * std::sin(0.17 * y) + 0.3 * std::sin(0.11 * x - 0.23 * y);
   };
   PlanProblem problem = problem_on(kCells, kCells, 1.0, 1.0, hills_m);
   PlanProblem mirrored =
       problem_on(kCells, kCells, 1.0, 1.0, [&](double x, double y) { return hills_m(x, kCells - y); });
-  for (PlanProblem* each : {&problem, &mirrored}) each->limits.max_tilt_rad = rad_from_deg(14.0);
+  for (PlanProblem* each : {&problem, &mirrored}) each->limits.max_tilt_rad = rad_from_deg(9.8);
   DriveSteps other = to_the_east();
   other.start.y_m = kCells - other.start.y_m;
   other.steps.back().radius_m = -other.steps.back().radius_m;

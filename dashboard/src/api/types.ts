@@ -2707,6 +2707,8 @@ export interface components {
                 constant_w?: number;
                 /** @description Solar cells, flat on the body [m^2] */
                 array_m2?: number;
+                /** @description Solar cells that stand upright around the body, as much to each side [m^2] */
+                upright_array_m2?: number;
                 /** @description Power over the light on clean cells */
                 array_efficiency?: number;
                 /** @description Share of the light that dust on the cells lets through */

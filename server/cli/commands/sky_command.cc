@@ -64,7 +64,7 @@ Result<Place> place_of(const SkyOptions& options) {
   const dem::MapPlace on_map = options.place ? dem::MapPlace{options.place->x_m, options.place->y_m}
                                              : dem::MapPlace{0.5 * (extent.west_m + extent.east_m),
                                                              0.5 * (extent.south_m + extent.north_m)};
-  place.degrees = api::degrees_at(*place.site, on_map);
+  place.degrees = place.site->degrees_at(on_map);
   return place;
 }
 

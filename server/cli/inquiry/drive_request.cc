@@ -106,7 +106,8 @@ Result<void> write_departure(Writer& w, const DriveOptions& drive) {
     const auto moments = api::json::parse(*bytes);
     if (!moments) {
       Error error = moments.error();
-      error.detail = file + ": " + error.detail;
+      error.detail = fmt::format("--sky {} is no list of moments in JSON, as departure.sky of a request: {}",
+                                 file, error.detail);
       return fail(std::move(error));
     }
     write_value(w.key("sky"), *moments);

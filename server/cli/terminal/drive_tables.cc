@@ -8,6 +8,7 @@
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
+#include "api/report/verdict_sections.h"
 #include "planner/problem/verdict.h"
 #include "server/cli/terminal/tables.h"
 #include "server/cli/terminal/text_table.h"
@@ -189,7 +190,7 @@ std::string advice_lines(const JsonValue& decision) {
   const JsonValue& advice = at(decision, "advice");
   if (text(decision, "verdict") == "go") return {};
   if (advice.elements.empty())
-    return "What would change it: another way or another goal; no shorter drive and no scout drive does\n";
+    return fmt::format("What would change it: {}\n", api::without_advice(decision));
   std::string out;
   for (const JsonValue& each : advice.elements)
     out += fmt::format("What would change it: {}\n", text(each, "words"));
