@@ -26,33 +26,48 @@ PlaceOnWay place_at(const sim::DrivePrediction& drive, double at_m, std::string 
   return {station.station.distance_m, station.station.pose.x_m, station.station.pose.y_m, std::move(why)};
 }
 
+double halting(const sim::StretchRisk& stretch) {
+  return stretch.expected_stops + stretch.embedding;
+}
+
 std::vector<PlaceOnWay> checks_of(const sim::DrivePrediction& drive) {
   std::vector<PlaceOnWay> checks;
   for (const sim::StretchRisk& stretch : drive.outcomes.stretches)
-    if (stretch.expected_stops + stretch.embedding > kLikelyEnough)
+    if (halting(stretch) > kLikelyEnough)
       checks.push_back(
           place_at(drive, stretch.from_m,
                    fmt::format("a halt or an embedding in {:.1f} % of the draws from here to {:.0f} m",
-                               100.0 * (stretch.expected_stops + stretch.embedding), stretch.to_m)));
+                               100.0 * halting(stretch), stretch.to_m)));
   return checks;
 }
 
-// Where most draws halt, are embedded or break a limit.
+// Of the stretch on which most draws halt or are embedded the station where most do; the station of the
+// greatest risk, where that is more.
 std::optional<PlaceOnWay> worst_of(const sim::DrivePrediction& drive) {
-  const sim::StationPrediction* worst = nullptr;
-  double most = 0.0;
+  const auto& stretches = drive.outcomes.stretches;
+  const auto worst = std::max_element(
+      stretches.begin(), stretches.end(),
+      [](const sim::StretchRisk& a, const sim::StretchRisk& b) { return halting(a) < halting(b); });
+  const double halts = worst == stretches.end() ? 0.0 : halting(*worst);
+  if (drive.worst_place.value > halts)
+    return place_at(
+        drive, drive.worst_place.distance_m,
+        fmt::format("{:.1f} % of the draws break a limit or are immobilised here, the most on the way",
+                    100.0 * drive.worst_place.value));
+  if (!(halts > 0.0)) return std::nullopt;
+  double at_m = worst->from_m, most = 0.0;
   for (const sim::StationPrediction& station : drive.stations) {
-    const double share = std::max(station.risk, station.stops + station.embedding);
-    if (share <= most) continue;
-    most = share;
-    worst = &station;
+    const double distance_m = station.station.distance_m;
+    if (distance_m < worst->from_m || distance_m > worst->to_m || station.stops + station.embedding <= most)
+      continue;
+    most = station.stops + station.embedding;
+    at_m = distance_m;
   }
-  if (worst == nullptr) return std::nullopt;
-  return PlaceOnWay{
-      worst->station.distance_m, worst->station.pose.x_m, worst->station.pose.y_m,
-      fmt::format("{:.1f} % of the draws {} here, the most on the way", 100.0 * most,
-                  worst->stops + worst->embedding >= worst->risk ? "halt or are embedded"
-                                                                 : "break a limit or are immobilised")};
+  return place_at(
+      drive, at_m,
+      fmt::format("{:.1f} % of the draws halt or are embedded between {:.0f} and {:.0f} m, the most "
+                  "on the way",
+                  100.0 * halts, worst->from_m, worst->to_m));
 }
 
 // Where a drive that leaves at the best moment, or the nearest, is at the slow pace when its time is over.

@@ -114,21 +114,24 @@ void add_day(ReportPage& page, const JsonValue& departures, const JsonValue& ask
   for (const JsonValue& window : at(departures, "windows").elements) {
     const planner::DepartureWindow minutes = planner::to_the_minute(
         {utc_of_text(text(window, "from")).value_or(0), utc_of_text(text(window, "to")).value_or(0)});
-    page.item(
-        fmt::format("Depart between {} and {}", clock.words(minutes.from_ms), clock.words(minutes.to_ms)));
+    page.item(minutes.from_ms == minutes.to_ms
+                  ? "Depart at " + clock.words(minutes.from_ms)
+                  : fmt::format("Depart between {} and {}", clock.words(minutes.from_ms),
+                                clock.words(minutes.to_ms)));
   }
   const JsonValue& drive = at(departures, has(departures, "best") ? "best" : "nearest");
   page.paragraph(fmt::format(
       "{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
       "{:.0f} % of the time. The battery holds {:.1f} % at the departure and {:.1f} % at the "
-      "arrival ({:.1f} % at the worse pace): {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh spilled. "
-      "The optical depth of the air is {:g}.",
+      "arrival ({:.1f} % at the worse pace): {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh spilled.{}",
       has(departures, "best") ? "Best at" : "No departure keeps the rules of the day; nearest is",
       clock.words(text(drive, "departs")), clock.words(text(drive, "arrives")),
       clock.words(text(drive, "arrives_late")), 100.0 * number(drive, "lit_share"),
       number(asked, "charge_percent"), number(drive, "charge_percent"), number(drive, "charge_low_percent"),
       number(drive, "gained_wh"), number(drive, "used_wh"), number(drive, "spilled_wh"),
-      number(asked, "optical_depth")));
+      number(asked, "optical_depth") > 0.0
+          ? fmt::format(" The optical depth of the air is {:g}.", number(asked, "optical_depth"))
+          : std::string()));
   if (has(departures, "halt"))
     page.paragraph(
         fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
@@ -183,7 +186,7 @@ void add_places(ReportPage& page, const JsonValue& sol) {
                                               number(at(request, "departure"), "charge_percent"))
                                 : std::string();
   page.paragraph(
-      fmt::format("Backing out of it to the start{} is {}: {}. Distances here count from the worst place.",
+      fmt::format("Backing out of it to the start{} is {}: {}. Its distances count from the worst place.",
                   begun, planner::verdict_words(text(back, "verdict")),
                   at(back, "reasons").elements.empty() ? std::string("no reason")
                                                        : at(back, "reasons").elements.front().text));
