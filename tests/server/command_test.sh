@@ -286,6 +286,12 @@ holds sky.json "$folder/err"
 expect 0 $shipped
 expect 3 $shipped --depart 2016-03-22T09:00:00Z --day arrive_by=2016-03-22T08:00:00Z
 ! grep -q 'end the drive at' "$folder/out" || { echo "a shorter drive is advised that the day forbids"; exit 1; }
+# A start that is wrong is judged, and one that is none refused.
+between="--start 8142566,-276711 --goal 8142566,-276696 --routes 1 --depart 2016-03-22T09:00:00Z"
+expect 2 "$slipway" sol $between --start-error position_m=-1
+holds '/start_error/position_m' "$folder/err"
+expect 0 "$slipway" sol $between --start-error position_m=0.2 --start-error heading_deg=1
+holds 'of 25 starts that are wrong by 0.2 m and 1 deg' "$folder/out"
 # A GO that holds only with a wait says so first.
 expect 0 $shipped --depart 2016-03-22T01:00:00Z --day charge_percent=0
 holds '^GO: departing at .* must wait' "$folder/out"
