@@ -101,9 +101,11 @@ class SqliteJobStore final : public JobStore {
 
   Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
                                              std::int64_t now, LeaseTerm term, int most) override {
+    // The index of unfinished jobs says which there are. A bad disk may have left one there that ended, which
+    // its own row knows.
     const std::string next = fmt::format(
         "SELECT id FROM jobs WHERE state IN ('accepted', 'running') AND (state = 'accepted' OR "
-        "lease_until_ms < ?) {} ORDER BY urgency, sequence LIMIT 1",
+        "lease_until_ms < ?) AND ended_ms IS NULL {} ORDER BY urgency, sequence LIMIT 1",
         among(kinds));
     const auto found_by = [&](SqliteConnection& connection) -> std::optional<std::string> {
       auto row = connection.prepare(next);

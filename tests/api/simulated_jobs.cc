@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <random>
@@ -45,11 +43,10 @@ class Simulation {
       now_ += below(20) == 0 ? 5 * kLease_ms : below(50);
       Process& process = processes_[below(processes_.size())];
       if (below(4) == 0) arm();
-      trace(fmt::format("step {} now {} process {} open {}", step, now_, process.id, process.store != nullptr));
       if (process.store || open(process)) act(*process.store);
       world_.rest();
       bury();
-      if (rots && below(20) == 0) { trace("  rot"); rotten_ = world_.rot() || rotten_; }
+      if (rots && below(20) == 0) rotten_ = world_.rot() || rotten_;
     }
     if (!rotten_ && found_.empty()) end_well();
     for (Process& process : processes_) close(process);
@@ -61,14 +58,9 @@ class Simulation {
 
   void arm() {
     const int mishap = below(SimulatedWorld::kMishaps);
-    const int after = below(40);
-    trace(fmt::format("  arm {} after {}", mishap, after));
-    world_.arm(mishap, after);
+    world_.arm(mishap, below(40));
   }
 
-  static void trace(const std::string& what) {
-    if (std::getenv("SLIPWAY_TRACE") != nullptr) std::fprintf(stderr, "%s\n", what.c_str());
-  }
   void violated(std::string what) {
     if (found_.empty()) found_ = fmt::format("seed {}: {}", seed_, what);
   }
@@ -77,7 +69,6 @@ class Simulation {
   template <class T>
   bool answered(const Result<T>& result) {
     if (result) return true;
-    trace("  error " + result.error().detail);
     const Error& why = result.error();
     const bool expected = why.code == ErrorCode::kStorage || why.code == ErrorCode::kStorageFull ||
                           why.code == ErrorCode::kDamagedStore;
@@ -98,7 +89,6 @@ class Simulation {
 
   // What is left of it does nothing any more.
   void close(Process& process) {
-    trace(fmt::format("  close {}", process.id));
     world_.die(process.id);
     process.store.reset();
   }
@@ -108,7 +98,6 @@ class Simulation {
       if (process.store && world_.is_dead(process.id)) close(process);
     if (below(30) == 0) close(processes_[below(processes_.size())]);
     if (below(60) == 0) {
-      trace("  power");
       world_.lose_power();
       bury_all();
     }
@@ -175,7 +164,6 @@ class Simulation {
     if (!answered(claimed)) return;
     for (const ClaimedJob& job : *claimed) {
       leases_.push_back(job.lease());
-      trace(fmt::format("  claimed {} of '{}' attempt {}", job.job.id, job.job.whole, job.job.attempt));
       parts_.insert({job.job.id, job.job.whole});
       if (job.damaged || !job.job.whole.empty()) continue;
       if (!jobs_.contains(job.job.id)) return violated("a job is claimed that nobody asked for");
@@ -201,7 +189,6 @@ class Simulation {
     for (int page = below(3); page > 0; --page)
       answer.series.push_back(std::string(1 + below(3000), static_cast<char>('a' + below(26))));
     const auto kept = store.finish(lease, JobState::kSuccessful, answer, now_);
-    trace(fmt::format("  finish {} {} attempt {}: {}", lease.id, answer.bytes, lease.attempt, kept ? (*kept ? "kept" : "not kept") : "error"));
     if (!lease.whole.empty()) return static_cast<void>(answered(kept));
     KnownJob& known = jobs_[lease.id];
     known.series[answer.bytes] = answer.series;

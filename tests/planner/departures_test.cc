@@ -251,19 +251,21 @@ TEST(Departures, WhereTheTableEndsOnTheWayWhatIsKnownDecides) {
   departure.to_ms = 0;
   departure.rules.min_sun_rad = 0.5;
   departure.rules.min_charge = 0.1;
+  sim::RoverModel rover = kOnCells;
+  rover.power->battery_wh = 600.0;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  Departures found = departures_of(departure, kOnCells, prediction, progress);
+  Departures found = departures_of(departure, rover, prediction, progress);
   ASSERT_EQ(found.drive.rules.size(), 2U);
   EXPECT_EQ(found.drive.rules[0].name, "charge");
   EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kGo) << found.drive.rules[0].words;
   EXPECT_EQ(found.drive.rules[1].verdict, Verdict::kNoGo) << found.drive.rules[1].words;
   EXPECT_LT(found.drive.stations.size(), 60U) << "nothing is told of where the sun is not known";
   departure.rules.min_charge = 0.9;
-  found = departures_of(departure, kOnCells, prediction, progress);
+  found = departures_of(departure, rover, prediction, progress);
   EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kNoGo) << "in the first hour already";
   departure.rules.min_charge = 0.55;
-  found = departures_of(departure, kOnCells, prediction, progress);
+  found = departures_of(departure, rover, prediction, progress);
   EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kUnknown) << found.drive.rules[0].words;
 }
 
