@@ -290,7 +290,7 @@ def rover_schema():
     mer.update(name="as_the_file", masses=EVERY_MASS, wheel_slices=3, grousers=EVERY_CLEAT, drive=motor, steering=motor,
                pull_below_axle=0.5, wheel_weight=0.5,
                effects=[{"name": "slip_sinkage", "on": True, "parameters": {"n1": 0.2}}])
-    mer["power"].update(constant_w=10, array_clean=0.9, heating_w=5, heating_below_c=-60)
+    mer["power"].update(constant_w=10, upright_array_m2=0.3, array_clean=0.9, heating_w=5, heating_below_c=-60)
     mer["wheels"][0].update(software_radius_m=0.12, grousers=EVERY_CLEAT, drive="driven")
     mer["suspension"].update(EVERY_JOINT, bogie_stop_deg=30)
     four = json.loads((root / "docs/guide/examples/four_wheeled.json").read_text())
