@@ -223,29 +223,67 @@ class Operation(unittest.TestCase):
 
 
 class FullDisk(unittest.TestCase):
+    def small_disk(self, size):
+        """A folder on a disk of its own."""
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", made.name], capture_output=True).returncode != 0:
+            self.skipTest("a small disk takes the right to mount one")
+        self.addCleanup(lambda: subprocess.run(["umount", "-l", made.name], check=True))
+        return pathlib.Path(made.name)
+
     def test_what_fills_a_disk_can_be_stopped_on_it(self):
         """Jobs are dismissed on a full disk, and the service says that it is not ready."""
-        with tempfile.TemporaryDirectory() as made:
-            if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m", "tmpfs", made], capture_output=True).returncode != 0:
-                self.skipTest("a small disk takes the right to mount one")
-            folder = pathlib.Path(made)
-            server = Server(folder, "--audit", str(folder / "audit.jsonl"))
-            try:
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
-                location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
-                filling = folder / "filling"
-                with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
-                    while file.write(b"\0" * 65536):
-                        pass
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
-                self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
-                status, _, body = server.ask("DELETE", location)
-                self.assertEqual(status, 200, body)
-                filling.unlink()
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
-            finally:
-                server.stop()
-                subprocess.run(["umount", "-l", made], check=True)
+        folder = self.small_disk("64m")
+        server = Server(folder, "--audit", str(folder / "audit.jsonl"))
+        self.addCleanup(server.stop)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
+        filling = folder / "filling"
+        with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
+            while file.write(b"\0" * 65536):
+                pass
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
+        self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
+        status, _, body = server.ask("DELETE", location)
+        self.assertEqual(status, 200, body)
+        filling.unlink()
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
+
+    def test_jobs_are_dismissed_while_somebody_else_takes_all_room_there_is(self):
+        folder = self.small_disk("24m")
+        server = Server(folder)
+        self.addCleanup(server.stop)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        jobs = [server.ask("POST", "/v1/plans", plan(draws=1000 + k), ASYNC)[1]["Location"] for k in range(12)]
+        reserve, filling, over = folder / "jobs.sqlite.reserve", folder / "filling", threading.Event()
+        whole = reserve.stat().st_size
+        self.assertGreater(whole, 0)
+
+        def fill():
+            with filling.open("ab", buffering=0) as file:
+                while not over.is_set():
+                    try:
+                        file.write(b"\0" * 4096)
+                    except OSError:
+                        time.sleep(0.001)
+
+        filler = threading.Thread(target=fill)
+        filler.start()
+        try:
+            self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
+            statuses = [server.ask("DELETE", job)[0] for job in jobs]
+            left = reserve.stat().st_size
+        finally:
+            over.set()
+            filler.join()
+        print(f"12 jobs were dismissed on a full disk, {left} bytes of the reserve are left")
+        self.assertEqual(statuses, [200] * len(jobs))
+        states = [json.loads(server.ask("GET", job)[2])["state"] for job in jobs]
+        self.assertLessEqual(set(states), {"dismissed", "successful"}, "some ended before")
+        self.assertGreater(left, whole // 2)
+        filling.unlink()
+        self.assertTrue(comes_true(lambda: reserve.stat().st_size == whole, 10), "the reserve is there again")
 
 
 if __name__ == "__main__":
