@@ -376,12 +376,15 @@ class SqliteJobStore final : public JobStore {
     };
     auto done = guarded(write_mutex_, work);
     if (!is_short(done)) return done;
-    // A log that is begun anew has room up to where it ended.
-    static_cast<void>(guarded(write_mutex_, [&] {
-      durable_.execute("PRAGMA wal_checkpoint(PASSIVE)");
-      return true;
-    }));
-    return reserve_.give_to([&] { return guarded(write_mutex_, work); }, is_short);
+    const auto with_the_log_begun_anew = [&] {
+      // What it needs goes to the tables, and then the log has room up to where it ended.
+      static_cast<void>(guarded(write_mutex_, [&] {
+        durable_.execute("PRAGMA wal_checkpoint(PASSIVE)");
+        return true;
+      }));
+      return guarded(write_mutex_, work);
+    };
+    return reserve_.give_to(with_the_log_begun_anew, is_short);
   }
 
   struct PendingAppend {

@@ -6,6 +6,7 @@ usage: operation_test.py SLIPWAY SOURCE_DIR
 """
 import contextlib
 import hashlib
+import http.client
 import json
 import os
 import pathlib
@@ -201,6 +202,36 @@ class Operation(unittest.TestCase):
             asker.join()
         print(f"polls beside 16 clients whose requests are checked: p99 {1000 * sorted(took)[-2]:.0f} ms")
         self.assertLess(sorted(took)[-2], 1.0)
+
+    def test_pictures_and_documents_do_not_wait_for_shadows_nor_anybody_for_those_who_left(self):
+        """Twelve clients ask for as slow pictures as can be, half of them leave."""
+        server = self.serve()
+        suns = ";".join(f"{3.6 * k + 0.3:.1f},10" for k in range(100))
+
+        def ask(k):
+            asking = http.client.HTTPConnection("127.0.0.1", server.port, timeout=120)
+            asking.request("GET", f"/v1/terrains/gale/shadow.png?bounds={8142406 + k},-276792,8142700,-276455&sun={suns}")
+            return asking
+
+        server.ask("GET", "/v1/terrains/gale")
+        begun, before = time.monotonic(), server.service_s()
+        self.assertEqual(ask(50).getresponse().status, 200)
+        one_s, lone_s = server.service_s() - before, time.monotonic() - begun
+        before = server.service_s()
+        clients = [ask(k) for k in range(12)]
+        time.sleep(0.1)
+        for client in clients[6:]:
+            client.close()
+        took = {}
+        for path in ("/v1/terrains", "/v1/terrains/gale", "/v1/terrains/gale/point?x_m=8142500&y_m=-276600", "/v1/terrains/gale/tiles/hillshade/0/0/0.png"):
+            begun = time.monotonic()
+            self.assertEqual(server.ask("GET", path)[0], 200, path)
+            took[path] = time.monotonic() - begun
+        self.assertEqual([client.getresponse().status for client in clients[:6]], [200] * 6)
+        self.assertEqual(server.ask("GET", "/healthz")[0], 200)
+        print(f"a hundred suns took {one_s:.2f} s of the processor, {lone_s:.2f} s in all; beside twelve of them: {took}")
+        self.assertLess(max(took.values()), 2.0 * lone_s + 1.0)
+        self.assertLess(server.service_s() - before, 9.0 * one_s + 1.0, "those who left cost nothing")
 
     def test_a_coordinate_beyond_all_maps_is_refused(self):
         server = self.serve()
