@@ -173,8 +173,8 @@ class Lines {
     }
   }
 
-  // What an eye at (p, q) sees: nearby along its own ray, beyond along the lines beside it. No longer looked
-  // for than up to `enough`.
+  // What an eye at (p, q) sees: nearby along its own ray, beyond along the lines beside it. Higher
+  // than `enough` it is not looked for.
   double tangent(double p, double q, double height_m, double enough) {
     const double beyond = tangent_beyond(p, q, height_m);
     if (beyond >= enough) return beyond;
