@@ -10,12 +10,14 @@
 namespace slipway::api {
 namespace {
 
-constexpr double kMostSide = 256.0;  // of a picture, in cells
-
-dem::GridGeometry cells_of(const dem::Extent& extent) {
+// So that many suns cost little more than a few, they are drawn in fewer cells.
+dem::GridGeometry cells_of(const dem::Extent& extent, std::size_t suns) {
+  constexpr double kMostSide = 256.0;  // of a picture, in cells
+  constexpr double kFinest = 25.0;     // suns that are drawn in all of them
+  const double side = kMostSide * std::min(1.0, std::sqrt(kFinest / static_cast<double>(suns)));
   const double width_m = extent.east_m - extent.west_m, height_m = extent.north_m - extent.south_m;
   const auto cells = [&](double m) {
-    return std::max(1, static_cast<int>(std::lround(kMostSide * m / std::max(width_m, height_m))));
+    return std::max(1, static_cast<int>(std::lround(side * m / std::max(width_m, height_m))));
   };
   const int rows = cells(height_m), columns = cells(width_m);
   return {rows, columns, extent.west_m, extent.north_m, width_m / columns, height_m / rows};
@@ -60,16 +62,17 @@ Result<ShadowGround> ShadowGround::read(const TerrainSite& site, const dem::Exte
 }
 
 dem::RgbaImage ShadowGround::draw(const dem::Extent& extent, const std::vector<sky::Bearing>& suns) const {
-  const dem::GridGeometry cells = cells_of(extent);
+  const dem::GridGeometry cells = cells_of(extent, suns.size());
   const dem::Eyes eyes = dem::eyes_over(*near_, cells, 0.0);
   dem::RgbaImage image(cells.rows, cells.columns);
   std::vector<int> lit(image.pixels.size(), 0);
   for (const sky::Bearing& sun : suns) {
     if (sun.elevation_rad <= 0.0) continue;
     std::vector<float> horizon(lit.size(), -std::numeric_limits<float>::infinity());  // its tangent
-    sweep_.raise(eyes, sun.azimuth_rad, 1, horizon);
-    if (around_) around_->raise(eyes, sun.azimuth_rad, 1, horizon);
-    for (std::size_t k = 0; k < lit.size(); ++k) lit[k] += std::tan(sun.elevation_rad) > horizon[k] ? 1 : 0;
+    const double tangent = std::tan(sun.elevation_rad);
+    sweep_.raise(eyes, sun.azimuth_rad, 1, horizon, tangent);
+    if (around_) around_->raise(eyes, sun.azimuth_rad, 1, horizon, tangent);
+    for (std::size_t k = 0; k < lit.size(); ++k) lit[k] += tangent > horizon[k] ? 1 : 0;
   }
   for (std::size_t k = 0; k < lit.size(); ++k) {
     if (std::isnan(eyes.heights_m[k])) continue;

@@ -41,10 +41,10 @@ class ShadowGround {
   // Of an extent with all of the terrain around it. Errors: as of ground_of().
   static Result<ShadowGround> read(const TerrainSite& site, const dem::Extent& extent);
 
-  // A picture of the extent under suns whose azimuths count from the map's north. Under one: shadow, and
-  // transparent where the ground is lit; under several: in which share of them it is. Transparent where the
-  // terrain has no height. The ground is lit where the sun stands over the level and over the ground's
-  // horizon.
+  // A picture of the extent, 256 cells along its longer side or half as many under kMostSuns suns. Their
+  // azimuths count from the map's north. Under one: shadow, and transparent where the ground is lit; under
+  // several: in which share of them it is. Transparent where the terrain has no height. The ground is lit
+  // where the sun stands over the level and over the ground's horizon.
   dem::RgbaImage draw(const dem::Extent& extent, const std::vector<sky::Bearing>& suns) const;
 
  private:

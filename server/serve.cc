@@ -251,6 +251,10 @@ int serve(const ServeOptions& given) {
                               const std::optional<std::string>& authorization) {
     return !(*access)->refuses(method, path, authorization);
   };
+  http.name_of = [&access](std::string_view method, std::string_view path,
+                           const std::optional<std::string>& authorization) {
+    return (*access)->name_of(method, path, authorization);
+  };
   http.answered = [&, every = options.access_log](const AnsweredRequest& answered) {
     metrics.count_answer(answered);
     if (audit) audit->record(answered);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -27,26 +28,58 @@ std::string among(const std::vector<std::string>& kinds) {
   return kinds.empty() ? "" : fmt::format("AND kind IN ({})", places);
 }
 
-// A file of blocks beside the store's that are given back where a full disk would not let somebody free it.
+// A file of blocks beside the store's, of which a part is given back where a full disk would not let somebody
+// free it. Somebody else may take what is given: so it is little at a time. Thread-safe.
 class DiskReserve {
  public:
   // An empty path keeps none.
   explicit DiskReserve(std::string path) : path_(std::move(path)) {}
 
-  // Where the disk has no room for it, there is none until the next call.
-  void keep() const {
-    if (path_.empty()) return;
-    constexpr std::int64_t kBytes = std::int64_t{4} << 20U;
-    constexpr int kOwnersAlone = 0600;
-    const FileDescriptor file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnersAlone));
-    if (file.is_open() && ::posix_fallocate(file.fd(), 0, kBytes) != 0) give();
+  // As much of it as the disk has room for.
+  void keep() {
+    const std::scoped_lock lock(mutex_);
+    fill();
   }
-  void give() const {
-    if (!path_.empty()) static_cast<void>(::truncate(path_.c_str(), 0));
+  // Where a part has been given and there may be room again.
+  void keep_again() {
+    if (!is_whole_) keep();
+  }
+  // The answer of `work`, for which a part more is given while it is `is_short` of room.
+  template <class Work, class IsShort>
+  auto give_to(const Work& work, const IsShort& is_short) -> decltype(work()) {
+    const std::scoped_lock lock(mutex_);
+    auto done = work();
+    for (bool given = true; given && is_short(done);) {
+      given = give_part();
+      if (given) done = work();
+    }
+    fill();
+    return done;
   }
 
  private:
+  static constexpr std::int64_t kBytes = std::int64_t{4} << 20U, kPart = std::int64_t{64} << 10U;
+
+  FileDescriptor open() const {
+    constexpr int kOwnersAlone = 0600;
+    return FileDescriptor(path_.empty() ? -1
+                                        : ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnersAlone));
+  }
+  void fill() {
+    const FileDescriptor file = open();
+    std::int64_t bytes = file.is_open() ? ::lseek(file.fd(), 0, SEEK_END) : kBytes;
+    while (bytes >= 0 && bytes < kBytes && ::posix_fallocate(file.fd(), bytes, kPart) == 0) bytes += kPart;
+    is_whole_ = bytes >= kBytes;
+  }
+  bool give_part() const {
+    const FileDescriptor file = open();
+    const std::int64_t bytes = file.is_open() ? ::lseek(file.fd(), 0, SEEK_END) : 0;
+    return bytes > 0 && ::ftruncate(file.fd(), std::max(std::int64_t{0}, bytes - kPart)) == 0;
+  }
+
   std::string path_;
+  std::mutex mutex_;
+  std::atomic<bool> is_whole_ = true;
 };
 
 // Runs `work` on a connection that only one thread at a time may use.
@@ -314,6 +347,7 @@ class SqliteJobStore final : public JobStore {
   }
 
   Result<std::vector<Job>> list(std::size_t most) override {
+    reserve_.keep_again();  // here, since a service looks at the list time and again
     return guarded(read_mutex_, [&] {
       std::vector<Job> jobs;
       auto row = reader_.prepare(
@@ -339,10 +373,20 @@ class SqliteJobStore final : public JobStore {
   // What frees a full disk, or stops what fills it, may use the reserve.
   template <class Work>
   auto on_a_full_disk(const Work& work) -> Result<decltype(work())> {
+    const auto is_short = [](const auto& done) {
+      return !done && done.error().code == ErrorCode::kStorageFull;
+    };
     auto done = guarded(write_mutex_, work);
-    if (done || done.error().code != ErrorCode::kStorageFull) return done;
-    reserve_.give();
-    return guarded(write_mutex_, work);
+    if (!is_short(done)) return done;
+    const auto with_the_log_begun_anew = [&] {
+      // What it needs goes to the tables, and then the log has room up to where it ended.
+      static_cast<void>(guarded(write_mutex_, [&] {
+        durable_.execute("PRAGMA wal_checkpoint(PASSIVE)");
+        return true;
+      }));
+      return guarded(write_mutex_, work);
+    };
+    return reserve_.give_to(with_the_log_begun_anew, is_short);
   }
 
   struct PendingAppend {
@@ -406,7 +450,7 @@ class SqliteJobStore final : public JobStore {
   const std::unique_ptr<SqliteConnection> second_, third_;
   SqliteConnection& quick_ = second_ ? *second_ : durable_;
   SqliteConnection& reader_ = third_ ? *third_ : durable_;
-  const DiskReserve reserve_;
+  DiskReserve reserve_;
   std::mutex write_mutex_;  // durable_, quick_: SQLite has one writer at a time anyway
   std::mutex third_mutex_;
   std::mutex& read_mutex_ = third_ ? third_mutex_ : write_mutex_;  // pollers do not wait for the disk

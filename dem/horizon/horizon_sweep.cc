@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/parallel_for.h"
@@ -29,8 +30,7 @@ double slope(const Corner& from, const Corner& to) {
 class Hull {
  public:
   void add(const Corner& nearer) {
-    while (corners_.size() > 1 &&
-           slope(nearer, corners_[corners_.size() - 2]) >= slope(nearer, corners_.back()))
+    while (corners_.size() > 1 && !is_seen(corners_.back(), nearer, corners_[corners_.size() - 2]))
       corners_.pop_back();
     corners_.push_back(nearer);
   }
@@ -54,6 +54,12 @@ class Hull {
   }
 
  private:
+  // Whether a corner stands over the line from the nearer to the farther one; without a division.
+  static bool is_seen(const Corner& corner, const Corner& nearer, const Corner& farther) {
+    return (corner.w_m - nearer.w_m) * (farther.s_m - nearer.s_m) >
+           (farther.w_m - nearer.w_m) * (corner.s_m - nearer.s_m);
+  }
+
   std::vector<Corner> corners_;
   std::size_t seen_ = 0;
 };
@@ -67,8 +73,11 @@ struct Course {
   double closest_m;  // nearer there is but the slope that the rover itself stands on
   std::ptrdiff_t p_stride, q_stride;
   const float* first;
+  // Where there is no ground, since it was left out.
+  double low_p = 0.0, high_p = 0.0, low_q = 0.0, high_q = 0.0;
 
-  Course(const GridGeometry& grid, const std::vector<float>& heights, double azimuth_rad) {
+  Course(const GridGeometry& grid, const std::vector<float>& heights, const std::optional<Extent>& without,
+         double azimuth_rad) {
     const Eigen::Vector2d per_m = index_per_m(grid, azimuth_rad);
     along_columns = std::abs(per_m.y()) >= std::abs(per_m.x());
     const double p_m = along_columns ? per_m.y() : per_m.x(), q_m = along_columns ? per_m.x() : per_m.y();
@@ -85,6 +94,11 @@ struct Course {
       first += (p_count - 1) * p_stride;
       p_stride = -p_stride;
     }
+    if (!without) return;
+    const Eigen::Vector2d one = grid.fractional_index(without->west_m, without->north_m),
+                          other = grid.fractional_index(without->east_m, without->south_m);
+    std::tie(low_p, high_p) = std::minmax({p_of(one), p_of(other)});
+    std::tie(low_q, high_q) = std::minmax({q_of(one), q_of(other)});
   }
 
   double p_of(const Eigen::Vector2d& row_and_column) const {
@@ -98,23 +112,44 @@ struct Course {
   // On a whole p, between two whole q.
   double height_m(int p, double q) const {
     if (!(q >= 0.0 && q <= q_count - 1)) return kNoHeight;
-    const int below = std::min(static_cast<int>(q), q_count - 2);
-    const float* const here = at(p, below);
-    return here[0] + (q - below) * (here[q_stride] - here[0]);
+    return inner_height_m(p, q);
   }
-  // Anywhere.
-  double height_m(double p, double q) const {
-    if (!(p >= 0.0 && p <= p_count - 1)) return kNoHeight;
-    const int before = std::min(static_cast<int>(p), p_count - 2);
-    const double here = height_m(before, q);
-    return here + (p - before) * (height_m(before + 1, q) - here);
+  double inner_height_m(int p, double q) const {
+    const int below = std::min(static_cast<int>(q), q_count - 2);
+    return between(at(p, below), q_stride, q - below);
+  }
+  // Anywhere on the grid.
+  double inner_height_m(double p, double q) const {
+    const int before = std::min(static_cast<int>(p), p_count - 2),
+              below = std::min(static_cast<int>(q), q_count - 2);
+    const float* const from = at(before, below);
+    const double here = between(from, q_stride, q - below);
+    return here + (p - before) * (between(from + p_stride, q_stride, q - below) - here);
   }
   // On a whole q, between two whole p.
-  double height_across_m(double p, int q) const {
-    if (q < 0 || q >= q_count || !(p >= 0.0 && p <= p_count - 1)) return kNoHeight;
+  double inner_height_m(double p, int q) const {
     const int before = std::min(static_cast<int>(p), p_count - 2);
-    const float* const here = at(before, q);
-    return here[0] + (p - before) * (here[p_stride] - here[0]);
+    return between(at(before, q), p_stride, p - before);
+  }
+  static double between(const float* here, std::ptrdiff_t stride, double share) {
+    return here[0] + share * (here[stride] - here[0]);
+  }
+  // How many steps from (p, q) the ground ends, and how many before it begins: both 0 where it is never met.
+  std::pair<double, double> met(double p, double q) const {
+    double begin = std::max(0.0, -p), end = p_count - 1 - p;
+    if (q_per_p != 0.0) {
+      const std::pair<double, double> across = std::minmax({-q / q_per_p, (q_count - 1 - q) / q_per_p});
+      begin = std::max(begin, across.first);
+      end = std::min(end, across.second);
+    } else if (q < 0.0 || q > q_count - 1) {
+      end = 0.0;
+    }
+    if (p > low_p && p < high_p && q > low_q && q < high_q) {
+      double leaves = high_p - p;
+      if (q_per_p != 0.0) leaves = std::min(leaves, ((q_per_p > 0.0 ? high_q : low_q) - q) / q_per_p);
+      begin = std::max(begin, leaves);
+    }
+    return begin < end ? std::pair(begin, end) : std::pair(0.0, 0.0);
   }
 };
 
@@ -138,31 +173,16 @@ class Lines {
     }
   }
 
-  // What an eye at (p, q) sees: nearby along its own ray, beyond along the lines beside it.
-  double tangent(double p, double q, double height_m) {
-    const int here = static_cast<int>(std::floor(p));
-    double best = -std::numeric_limits<double>::infinity();
-    const auto look = [&](double height, double steps) {
-      const double d = steps * course_.metres_per_p;
-      const double over = height - height_m - d * d * per_diameter_;
-      if (over > best * d) best = over / d;  // not where there is no height
-    };
-    const int end = std::min(here + kNearby, course_.p_count) - 1;
-    double last_p = p + course_.closest_m / course_.metres_per_p;
-    look(course_.height_m(last_p, q + course_.q_per_p * (last_p - p)), last_p - p);
-    for (int k = std::max(static_cast<int>(std::floor(last_p)) + 1, 0); k <= end; ++k) {
-      const double last_q = q + course_.q_per_p * (last_p - p), at_q = q + course_.q_per_p * (k - p);
-      const int crossed = static_cast<int>(std::max(last_q, at_q));
-      if (crossed > std::min(last_q, at_q)) {
-        const double to_crossing = (crossed - q) / course_.q_per_p;
-        look(course_.height_across_m(p + to_crossing, crossed), to_crossing);
-      }
-      // Between two crossings the ground is a parabola.
-      const double middle = 0.5 * (last_p + k);
-      if (k - here < kClose) look(course_.height_m(middle, q + course_.q_per_p * (middle - p)), middle - p);
-      look(course_.height_m(k, at_q), k - p);
-      last_p = k;
-    }
+  // What an eye at (p, q) sees: nearby along its own ray, beyond along the lines beside it. Higher
+  // than `enough` it is not looked for.
+  double tangent(double p, double q, double height_m, double enough) {
+    const double beyond = tangent_beyond(p, q, height_m);
+    if (beyond >= enough) return beyond;
+    return std::max(beyond, tangent_nearby(p, q, height_m, enough));
+  }
+
+ private:
+  double tangent_beyond(double p, double q, double height_m) {
     const double s = p * course_.metres_per_p;
     const Corner eye{s, height_m - s * s * per_diameter_};
     const double line = q - course_.q_per_p * p - first_j_, share = line - std::floor(line);
@@ -170,10 +190,46 @@ class Lines {
     const double one = hulls_[k].steepest(eye), other = hulls_[k + 1].steepest(eye);
     const double far =
         std::isinf(one) || std::isinf(other) ? std::max(one, other) : (1.0 - share) * one + share * other;
-    return std::max(best, far + 2.0 * s * per_diameter_);
+    return far + 2.0 * s * per_diameter_;
   }
 
- private:
+  double tangent_nearby(double p, double q, double height_m, double enough) const {
+    double best = -std::numeric_limits<double>::infinity();
+    const auto look = [&](double height, double steps) {
+      const double d = steps * course_.metres_per_p;
+      const double over = height - height_m - d * d * per_diameter_;
+      if (over > best * d) best = over / d;  // not where there is no height
+    };
+    const auto q_after = [&](double steps) { return q + course_.q_per_p * steps; };
+    const auto look_after = [&](double steps) {
+      look(course_.inner_height_m(p + steps, q_after(steps)), steps);
+    };
+    const int here = static_cast<int>(std::floor(p));
+    const auto [begins, ends] = course_.met(p, q);
+    constexpr double kRounding = 1e-9;  // the rim of the grid is on it
+    const double first = std::max(begins, course_.closest_m / course_.metres_per_p),
+                 last = std::min(ends, here + kNearby - 1.0 - p) + kRounding;
+    if (first > last) return best;
+    look_after(first);
+    const int next = static_cast<int>(std::floor(p + first)) + 1,
+              end = static_cast<int>(std::floor(p + last));
+    // Between two crossings the ground is a parabola.
+    const int close = std::min(end, here + kClose - 1);
+    if (next <= close) look_after(0.5 * (first + next - p));
+    for (int k = next + 1; k <= close; ++k) look_after(k - 0.5 - p);
+    for (int k = next; k <= end && best < enough; ++k) look(course_.inner_height_m(k, q_after(k - p)), k - p);
+    if (course_.q_per_p == 0.0) return best;
+    const bool rises = course_.q_per_p > 0.0;
+    const double q_first = q_after(first), q_last = q_after(last), per_q = 1.0 / course_.q_per_p;
+    const int from = static_cast<int>(rises ? std::floor(q_first) + 1.0 : std::ceil(q_last)),
+              to = static_cast<int>(rises ? std::floor(q_last) : std::ceil(q_first) - 1.0);
+    for (int k = from; k <= to && best < enough; ++k) {
+      const double steps = (k - q) * per_q;
+      look(course_.inner_height_m(p + steps, k), steps);
+    }
+    return best;
+  }
+
   const Course& course_;
   double per_diameter_;
   int first_j_, count_;
@@ -201,7 +257,7 @@ Eyes eyes_over(const Terrain& terrain, const GridGeometry& cells, double eye_m) 
 }
 
 HorizonSweep::HorizonSweep(const Terrain& terrain, double body_radius_m, std::optional<Extent> without)
-    : geometry_(terrain.geometry()), body_radius_m_(body_radius_m) {
+    : geometry_(terrain.geometry()), without_(without), body_radius_m_(body_radius_m) {
   constexpr int kRowsAtOnce = 256;  // as a tiled raster is read
   heights_m_.reserve(static_cast<std::size_t>(geometry_.rows) * static_cast<std::size_t>(geometry_.columns));
   for (int from = 0; from < geometry_.rows; from += kRowsAtOnce) {
@@ -219,9 +275,9 @@ HorizonSweep::HorizonSweep(const Terrain& terrain, double body_radius_m, std::op
 }
 
 void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threads,
-                         std::vector<float>& tangents) const {
+                         std::vector<float>& tangents, double enough) const {
   if (geometry_.rows < 2 || geometry_.columns < 2) return;
-  const Course course(geometry_, heights_m_, azimuth_rad);
+  const Course course(geometry_, heights_m_, without_, azimuth_rad);
   const GridGeometry& cells = eyes.cells;
   // The eyes' cells along p and along q, and where they lie.
   const int along_p = course.along_columns ? cells.columns : cells.rows,
@@ -274,9 +330,9 @@ void HorizonSweep::raise(const Eyes& eyes, double azimuth_rad, std::size_t threa
           const double line = q - course.q_per_p * next->first - j;
           if (line < 0.0 || line >= kLinesOfBlock) continue;
           const std::size_t eye = at(next->second, k);
-          if (std::isnan(eyes.heights_m[eye])) continue;
-          tangents[eye] =
-              std::max(tangents[eye], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[eye])));
+          if (std::isnan(eyes.heights_m[eye]) || tangents[eye] >= enough) continue;
+          tangents[eye] = std::max(
+              tangents[eye], static_cast<float>(lines.tangent(next->first, q, eyes.heights_m[eye], enough)));
         }
       }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -31,11 +32,13 @@ class HorizonSweep {
   HorizonSweep(const Terrain& terrain, double body_radius_m, std::optional<Extent> without = std::nullopt);
 
   // Raises the tangent of each eye's horizon (-infinity where nothing was seen before) by this ground.
-  // `azimuth_rad` is clockwise from north.
-  void raise(const Eyes& eyes, double azimuth_rad, std::size_t threads, std::vector<float>& tangents) const;
+  // `azimuth_rad` is clockwise from north. Above `enough` a tangent need not be the whole one.
+  void raise(const Eyes& eyes, double azimuth_rad, std::size_t threads, std::vector<float>& tangents,
+             double enough = std::numeric_limits<double>::infinity()) const;
 
  private:
   GridGeometry geometry_;
+  std::optional<Extent> without_;
   double body_radius_m_;
   std::vector<float> heights_m_;  // NaN where there is none
 };

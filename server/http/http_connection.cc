@@ -107,6 +107,7 @@ void HttpLoop::ask_for_piece(Connection& connection, HttpWorkers& workers) {
   Work work;
   work.connection = connection.id;
   work.fd = connection.socket.fd();
+  work.remote_address = connection.address;
   work.close = connection.close_after;
   work.pieces = std::exchange(connection.pieces, {});
   connection.phase = Phase::kWorking;

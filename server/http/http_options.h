@@ -43,7 +43,7 @@ struct HttpOptions {
   // Handlers run here and nothing else does: no socket that is slow ever holds one of these. Handlers are
   // short (long work is a job), so a few more than there are cores hide their waits on storage.
   std::size_t worker_threads = 8;
-  // As many heavy routes are answered at once, see Route: pictures, reports, long tables.
+  // As many heavy routes are answered at once, see Route: reports, long tables; and as many pictures.
   std::size_t heavy_threads = 2;
   // As many requests for work are checked, or wait for their end, at once.
   std::size_t asking_threads = 6;
@@ -110,6 +110,11 @@ struct HttpOptions {
   std::function<bool(std::string_view method, std::string_view path,
                      const std::optional<std::string>& authorization)>
       wants_body;
+  // Who asks, by the same, so that those who wait for the same threads have their turns one after the other.
+  // Called from the thread of all sockets. Empty, or an empty name: each address is somebody.
+  std::function<std::string(std::string_view method, std::string_view path,
+                            const std::optional<std::string>& authorization)>
+      name_of;
   // Asked before the routes are; what it gives is the answer, nothing lets the request through. Empty: all
   // may.
   std::function<std::optional<HttpResponse>(HttpRequest&)> admit;
@@ -123,6 +128,7 @@ struct HttpCounters {
   std::uint64_t open_connections = 0;     // now
   std::uint64_t requests_served = 0;      // answered by a route or by the router, since the start
   std::uint64_t requests_refused = 0;     // answered before routing: malformed, too large, too slow
+  std::uint64_t requests_abandoned = 0;   // whose clients left before their turn came
   std::uint64_t connections_refused = 0;  // over a cap of connections
 };
 

@@ -12,11 +12,13 @@ namespace slipway::server {
 
 // Which threads answer a route, each sort for its own routes alone, so that none waits behind another.
 enum class Threads {
-  kLight,   // who polls
-  kHeavy,   // what takes long or much memory, a few at once
-  kDrawn,   // whole answers that are drawn into a file first, which may take minutes: one at a time
-  kAsking,  // requests that are checked, and clients that wait for their end
-  kPrompt,  // what waits for nothing, no store and no other thread
+  kLight,    // who polls
+  kHeavy,    // what takes long or much memory, a few at once
+  kPicture,  // pictures and tiles of the ground, a few at once
+  kShadow,   // pictures of shadows, which take longer: one at a time
+  kDrawn,    // whole answers that are drawn into a file first, which may take minutes: one at a time
+  kAsking,   // requests that are checked, and clients that wait for their end
+  kPrompt,   // what waits for nothing, no store and no other thread
 };
 
 // What answers one method at the addresses of one pattern. "/v1/jobs/{id}" has three segments, and the last

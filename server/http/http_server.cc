@@ -88,7 +88,7 @@ class HttpServer::Running {
 
   HttpCounters counters() const {
     return {counters_.open_connections, counters_.requests_served, counters_.requests_refused,
-            counters_.connections_refused};
+            counters_.requests_abandoned, counters_.connections_refused};
   }
 
  private:

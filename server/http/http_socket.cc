@@ -1,5 +1,6 @@
 #include "server/http/http_socket.h"
 
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -31,6 +32,11 @@ Transfer send_some(int fd, std::string_view& bytes, bool more_follows) {
     if (errno != EINTR) return Transfer::kBroken;
   }
   return Transfer::kSome;
+}
+
+bool has_hung_up(int fd) {
+  pollfd asked{fd, POLLRDHUP, 0};
+  return ::poll(&asked, 1, 0) > 0;
 }
 
 }  // namespace slipway::server

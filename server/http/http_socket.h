@@ -19,4 +19,7 @@ Transfer receive_some(int fd, char* to, std::size_t size, std::size_t& received)
 // sent.
 Transfer send_some(int fd, std::string_view& bytes, bool more_follows = false);
 
+// Whether the peer has closed the connection, or its direction to us.
+bool has_hung_up(int fd);
+
 }  // namespace slipway::server

@@ -7,12 +7,25 @@
 #include "server/http/http_socket.h"
 
 namespace slipway::server {
+namespace {
+
+// Nobody waits for the answer any more. A client that only sends no more and one that has left look the same:
+// one that has not waited for long is believed to listen. What changes something is done for both.
+bool is_abandoned(const Work& work) {
+  constexpr std::chrono::seconds kLong{1};
+  return !work.pieces && only_reads(work.gathered.head.method) &&
+         std::chrono::steady_clock::now() - work.submitted > kLong && has_hung_up(work.fd);
+}
+
+}  // namespace
 
 HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
                          std::function<void(WorkDone)> done)
     : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
   const std::pair<Threads, std::size_t> sorts[] = {{Threads::kLight, options.worker_threads},
                                                    {Threads::kHeavy, options.heavy_threads},
+                                                   {Threads::kPicture, options.heavy_threads},
+                                                   {Threads::kShadow, 1},
                                                    {Threads::kDrawn, 1},
                                                    {Threads::kAsking, options.asking_threads},
                                                    {Threads::kPrompt, 1}};
@@ -28,9 +41,11 @@ HttpWorkers::~HttpWorkers() {
 
 void HttpWorkers::submit(Work work) {
   Queue& queue = queues_.at(threads_of(work));
+  const std::string turn_of = whose(work);
+  work.submitted = std::chrono::steady_clock::now();
   {
     const std::lock_guard lock(mutex_);
-    queue.waiting.push_back(std::move(work));
+    queue.waiting.push(turn_of, std::move(work));
   }
   queue.condition.notify_one();
 }
@@ -39,6 +54,14 @@ Threads HttpWorkers::threads_of(const Work& work) const {
   if (work.pieces) return Threads::kHeavy;
   const Route* const route = answers_.route_of(work.gathered.head);
   return route == nullptr ? Threads::kLight : route->threads;
+}
+
+std::string HttpWorkers::whose(const Work& work) const {
+  const RequestHead& head = work.gathered.head;
+  std::string name;
+  if (options_.name_of && !work.pieces)
+    name = options_.name_of(head.method, head.path, header_in(head.forwarded, "Authorization"));
+  return name.empty() ? work.remote_address : name;
 }
 
 void HttpWorkers::stop() {
@@ -60,10 +83,12 @@ void HttpWorkers::run(Queue& queue) {
       std::unique_lock lock(mutex_);
       queue.condition.wait(lock, [&] { return stopping_ || !queue.waiting.empty(); });
       if (stopping_) return;
-      work = std::move(queue.waiting.front());
-      queue.waiting.pop_front();
+      work = queue.waiting.pop();
     }
-    if (work.pieces)
+    if (is_abandoned(work)) {
+      counters_.requests_abandoned.fetch_add(1, std::memory_order_relaxed);
+      done_({.connection = work.connection, .unsent = {}, .broken = true});
+    } else if (work.pieces)
       go_on(std::move(work));
     else
       answer(engine, std::move(work));

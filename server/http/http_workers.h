@@ -1,9 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/http/http_answers.h"
+#include "server/http/http_fair_queue.h"
 #include "server/http/http_gatherer.h"
 #include "server/http/http_options.h"
 
@@ -26,6 +27,7 @@ struct LiveCounters {
   std::atomic<std::uint64_t> open_connections = 0;
   std::atomic<std::uint64_t> requests_served = 0;
   std::atomic<std::uint64_t> requests_refused = 0;
+  std::atomic<std::uint64_t> requests_abandoned = 0;
   std::atomic<std::uint64_t> connections_refused = 0;
   std::atomic<std::size_t> buffered_bytes = 0;
 };
@@ -39,6 +41,7 @@ struct Work {
   std::string remote_address;
   bool close = false;
   BodyPieces pieces = {};  // of the answer to go on with; empty: there is a request
+  std::chrono::steady_clock::time_point submitted = {};
 };
 
 struct WorkDone {
@@ -72,10 +75,11 @@ class HttpWorkers {
   // Work that waits for threads of one sort.
   struct Queue {
     std::condition_variable condition;
-    std::deque<Work> waiting;
+    FairQueue<Work> waiting;
   };
 
   Threads threads_of(const Work& work) const;
+  std::string whose(const Work& work) const;
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void go_on(Work work);

@@ -137,6 +137,12 @@ Result<std::optional<Access::Holder>> Access::holder_of(
   return holder->second;
 }
 
+std::string Access::name_of(std::string_view method, std::string_view path,
+                            const std::optional<std::string>& authorization) const {
+  const auto holder = holder_of(method, path, authorization);
+  return holder && *holder ? (*holder)->name : "";
+}
+
 bool Access::refuses(std::string_view method, std::string_view path,
                      const std::optional<std::string>& authorization) const {
   return !holder_of(method, path, authorization);

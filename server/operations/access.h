@@ -50,6 +50,11 @@ class Access {
   // is not known), forbidden (the role does not allow it), too_many_requests.
   Result<void> admit(HttpRequest& request);
 
+  // The name of the token that a request of this method, path and Authorization header comes with; empty
+  // without one, or where nobody needs one.
+  std::string name_of(std::string_view method, std::string_view path,
+                      const std::optional<std::string>& authorization) const;
+
   // Whether admit() will refuse a request of this method, path and Authorization header for the sake of its
   // token: then nobody needs its body.
   bool refuses(std::string_view method, std::string_view path,

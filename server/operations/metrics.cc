@@ -64,10 +64,13 @@ struct ServiceMetrics::Families {
                            .Help("Connections that are open")
                            .Register(registry)
                            .Add({});
-  Family<Counter>& refused = BuildCounter()
-                                 .Name("slipway_http_refused_total")
-                                 .Help("What was refused before it was routed: requests and connections")
-                                 .Register(registry);
+  Family<Counter>& refused =
+      BuildCounter()
+          .Name("slipway_http_refused_total")
+          .Help(
+              "What was not answered: requests and connections that were refused, and requests "
+              "whose client had left (abandoned)")
+          .Register(registry);
   Family<Gauge>& jobs =
       BuildGauge().Name("slipway_jobs").Help("Jobs that are kept, by kind and state").Register(registry);
   std::set<Gauge*> jobs_shown;
@@ -123,6 +126,7 @@ std::string ServiceMetrics::text(const HttpCounters& http, const std::vector<api
   f.connections.Set(static_cast<double>(http.open_connections));
   f.set_total(f.refused, "requests", http.requests_refused);
   f.set_total(f.refused, "connections", http.connections_refused);
+  f.set_total(f.refused, "abandoned", http.requests_abandoned);
   f.resident.Set(resident_bytes());
   f.descriptors.Set(open_descriptors());
   for (Gauge* const gauge : f.jobs_shown) gauge->Set(0.0);  // a state that no job is in any more

@@ -1,6 +1,7 @@
 #include "server/routes/job_answers.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <fstream>
 #include <memory>
@@ -112,9 +113,11 @@ HttpResponse JobAnswers::vectors(const HttpRequest& request, bool geopackage) {
   // SQLite opens a GeoPackage in place page by page: it is not made anew for each.
   const std::string form = geopackage ? "gpkg" : "geojson " + coordinates;
   const auto file = drawn_files_.get(fmt::format("{}/{}", job->id, form), [&] {
-    return DrawnFile::make(drawing_folder_, [&](const std::filesystem::path& path) {
+    auto made = DrawnFile::make(drawing_folder_, [&](const std::filesystem::path& path) {
       return write_vectors(*job, geopackage, lonlat, path);
     });
+    ::malloc_trim(0);  // the whole answer was in memory, and nothing as large may come for long
+    return made;
   });
   if (!file) return problem_response(file.error(), &request);
   HttpResponse response = document({});

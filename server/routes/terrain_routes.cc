@@ -294,11 +294,11 @@ std::vector<Route> terrain_routes(const api::Service& service) {
       {"GET", "/v1/terrains/{name}/sky", [terrains](const HttpRequest& r) { return terrains->sky(r); },
        Threads::kHeavy},
       {"GET", "/v1/terrains/{name}/shadow.png",
-       [terrains](const HttpRequest& r) { return terrains->shadow(r); }, Threads::kHeavy},
+       [terrains](const HttpRequest& r) { return terrains->shadow(r); }, Threads::kShadow},
       {"GET", "/v1/terrains/{name}/{picture}",
-       [terrains](const HttpRequest& r) { return terrains->picture(r); }, Threads::kHeavy},
+       [terrains](const HttpRequest& r) { return terrains->picture(r); }, Threads::kPicture},
       {"GET", "/v1/terrains/{name}/tiles/{layer}/{z}/{x}/{y}",
-       [terrains](const HttpRequest& r) { return terrains->tile(r); }, Threads::kHeavy},
+       [terrains](const HttpRequest& r) { return terrains->tile(r); }, Threads::kPicture},
   };
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -133,6 +135,24 @@ TEST(Sunlight, TheShareOfTheSunsHasItsClass) {
   EXPECT_EQ(at(74.0, 100.0), kSunlitClasses[1].colour) << "two suns of five";
   EXPECT_EQ(at(30.0, 100.0), kSunlitClasses[4].colour) << "all of them";
   EXPECT_EQ(wall(false).draw(kAll, {sun(0.0, -1.0), sun(0.0, -2.0)}).at(0, 0), kSunlitClasses[0].colour);
+}
+
+// Somebody who asks for as many suns as can be must not keep the others waiting. Seconds of a shared
+// processor say little, so that one sun is the measure.
+TEST(Sunlight, AHundredSunsCostLittleMoreThanAFew) {
+  const ShadowGround ground = wall(false);
+  std::vector<sky::Bearing> suns;
+  for (std::size_t k = 0; k < kMostSuns; ++k) suns.push_back(sun(3.6 * static_cast<double>(k) + 0.3, 15.0));
+  const auto seconds = [&](std::size_t count) {
+    const std::clock_t begun = std::clock();
+    EXPECT_EQ(ground.draw(kAll, {suns.begin(), suns.begin() + static_cast<std::ptrdiff_t>(count)}).columns,
+              count > 25 ? 128 : 256);
+    return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+  };
+  seconds(25);
+  const double few = seconds(25), all = seconds(kMostSuns);
+  std::cout << "25 suns took " << few << " s of the processor, 100 took " << all << " s\n";
+  EXPECT_LT(all, 2.5 * few);
 }
 
 std::shared_ptr<const TerrainSite> shipped(const std::string& name) {

@@ -414,6 +414,57 @@ TEST(HttpServer, DrawnAnswersAreMadeOneAtATimeAndNoPictureWaitsBehindThem) {
   EXPECT_EQ(most, 1);
 }
 
+// One client leaves more requests than there are threads and goes; another one waits for a single request.
+TEST(HttpServer, ForThoseWhoHaveLeftNothingIsDoneAndTurnsAreTakenOneAfterTheOther) {
+  std::mutex mutex;
+  std::vector<std::string> done;
+  std::atomic<bool> held{true}, begun{false};
+  const HttpResponse none{204, "", "", {}};
+  HttpOptions options;
+  options.name_of = [](std::string_view, std::string_view, const std::optional<std::string>& authorization) {
+    return authorization.value_or("");
+  };
+  const auto handle = [&](const HttpRequest& request) {
+    begun = true;
+    while (held) std::this_thread::sleep_for(milliseconds(1));
+    const std::lock_guard lock(mutex);
+    done.emplace_back(request.parameter("k"));
+    return none;
+  };
+  HttpServer server(options,
+                    {{"GET", "/shadow/{k}", handle, Threads::kShadow},
+                     {"DELETE", "/shadow/{k}", handle, Threads::kShadow},
+                     {"GET", "/picture", [&](const HttpRequest&) { return none; }, Threads::kPicture},
+                     {"GET", "/document", [&](const HttpRequest&) { return none; }, Threads::kHeavy}});
+  const auto port = server.start();
+  ASSERT_TRUE(port);
+  std::vector<std::unique_ptr<RawClient>> clients;
+  const auto ask = [&](const std::string& request) {
+    clients.push_back(std::make_unique<RawClient>(*port));
+    clients.back()->send(request);
+    // Each request waits before the next one comes.
+    std::this_thread::sleep_for(milliseconds(20));
+  };
+  for (const char* const k : {"0", "1", "2", "3"})
+    ask(get(std::string("/shadow/") + k, "Authorization: many\r\n"));
+  ask(get("/shadow/other", "Authorization: one\r\n"));
+  while (!begun) std::this_thread::sleep_for(milliseconds(1));
+  for (int k = 0; k < 4; ++k) {
+    ask(get("/shadow/left"));
+    clients.pop_back();
+  }
+  ask("DELETE /shadow/told HTTP/1.1\r\nHost: a\r\n\r\n");
+  clients.pop_back();
+  EXPECT_EQ(ask_once(*port, get("/picture")).status, 204);
+  EXPECT_EQ(ask_once(*port, get("/document")).status, 204);
+  std::this_thread::sleep_for(milliseconds(1100));
+  held = false;
+  for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
+  server.stop();
+  EXPECT_EQ(done, (std::vector<std::string>{"0", "1", "other", "2", "3", "told"}));
+  EXPECT_EQ(server.counters().requests_abandoned, 4U);
+}
+
 TEST(HttpServer, APromptRouteWaitsForNoOther) {
   std::atomic<int> waiting{0};
   std::atomic<bool> held{true};

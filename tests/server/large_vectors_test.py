@@ -58,6 +58,12 @@ class LargeVectors(unittest.TestCase):
         told.append((response.status, size, digest.hexdigest()))
         connection.close()
 
+    def given_back(self, down_to_mb):
+        deadline = time.time() + 10
+        while self.server.rss_mb("VmRSS") > down_to_mb and time.time() < deadline:
+            time.sleep(0.1)
+        return self.server.rss_mb("VmRSS") <= down_to_mb
+
     def test_sixteen_readers_take_little_memory_and_get_all(self):
         job = self.longest_drive()
         for _ in range(20):
@@ -75,6 +81,7 @@ class LargeVectors(unittest.TestCase):
             print(f"{name}: {told[0][1] / 1e6:.1f} MB to each of {READERS} readers took {most - before:.0f} MB of memory")
             self.assertGreater(told[0][1], 0.2e6 * LANES)
             self.assertLess(most - before, 50)
+            self.assertTrue(self.given_back(before + 20), "the memory is given back")
         package = self.folder / "it.gpkg"
         package.write_bytes(self.server.ask("GET", job + "/vectors.gpkg")[2])
         with sqlite3.connect(package) as file:

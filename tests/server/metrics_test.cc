@@ -29,10 +29,12 @@ TEST(ServiceMetrics, CountWhatTheyAreTold) {
   has(text, R"(slipway_http_refused_total{what="requests"} 7)");
   has(text, R"(slipway_jobs{kind="plan",state="accepted"} 2)");
   has(text, "slipway_worker_deaths_total 1");
-  const std::string later = metrics.text({.requests_refused = 9}, {{"plan", api::JobState::kRunning, 1}});
+  const std::string later =
+      metrics.text({.requests_refused = 9, .requests_abandoned = 4}, {{"plan", api::JobState::kRunning, 1}});
   has(later, R"(slipway_jobs{kind="plan",state="accepted"} 0)");
   has(later, R"(slipway_jobs{kind="plan",state="running"} 1)");
   has(later, R"(slipway_http_refused_total{what="requests"} 9)");
+  has(later, R"(slipway_http_refused_total{what="abandoned"} 4)");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ usage: operation_test.py SLIPWAY SOURCE_DIR
 """
 import contextlib
 import hashlib
+import http.client
 import json
 import os
 import pathlib
@@ -202,6 +203,36 @@ class Operation(unittest.TestCase):
         print(f"polls beside 16 clients whose requests are checked: p99 {1000 * sorted(took)[-2]:.0f} ms")
         self.assertLess(sorted(took)[-2], 1.0)
 
+    def test_pictures_and_documents_do_not_wait_for_shadows_nor_anybody_for_those_who_left(self):
+        """Twelve clients ask for as slow pictures as can be, half of them leave."""
+        server = self.serve()
+        suns = ";".join(f"{3.6 * k + 0.3:.1f},10" for k in range(100))
+
+        def ask(k):
+            asking = http.client.HTTPConnection("127.0.0.1", server.port, timeout=120)
+            asking.request("GET", f"/v1/terrains/gale/shadow.png?bounds={8142406 + k},-276792,8142700,-276455&sun={suns}")
+            return asking
+
+        server.ask("GET", "/v1/terrains/gale")
+        begun, before = time.monotonic(), server.service_s()
+        self.assertEqual(ask(50).getresponse().status, 200)
+        one_s, lone_s = server.service_s() - before, time.monotonic() - begun
+        before = server.service_s()
+        clients = [ask(k) for k in range(12)]
+        time.sleep(0.1)
+        for client in clients[6:]:
+            client.close()
+        took = {}
+        for path in ("/v1/terrains", "/v1/terrains/gale", "/v1/terrains/gale/point?x_m=8142500&y_m=-276600", "/v1/terrains/gale/tiles/hillshade/0/0/0.png"):
+            begun = time.monotonic()
+            self.assertEqual(server.ask("GET", path)[0], 200, path)
+            took[path] = time.monotonic() - begun
+        self.assertEqual([client.getresponse().status for client in clients[:6]], [200] * 6)
+        self.assertEqual(server.ask("GET", "/healthz")[0], 200)
+        print(f"a hundred suns took {one_s:.2f} s of the processor, {lone_s:.2f} s in all; beside twelve of them: {took}")
+        self.assertLess(max(took.values()), 2.0 * lone_s + 1.0)
+        self.assertLess(server.service_s() - before, 9.0 * one_s + 1.0, "those who left cost nothing")
+
     def test_a_coordinate_beyond_all_maps_is_refused(self):
         server = self.serve()
         status, _, body = server.ask("GET", "/v1/terrains/gale/profile?path=0,0,1e300,1e300")
@@ -223,29 +254,67 @@ class Operation(unittest.TestCase):
 
 
 class FullDisk(unittest.TestCase):
+    def small_disk(self, size):
+        """A folder on a disk of its own."""
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", made.name], capture_output=True).returncode != 0:
+            self.skipTest("a small disk takes the right to mount one")
+        self.addCleanup(lambda: subprocess.run(["umount", "-l", made.name], check=True))
+        return pathlib.Path(made.name)
+
     def test_what_fills_a_disk_can_be_stopped_on_it(self):
         """Jobs are dismissed on a full disk, and the service says that it is not ready."""
-        with tempfile.TemporaryDirectory() as made:
-            if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m", "tmpfs", made], capture_output=True).returncode != 0:
-                self.skipTest("a small disk takes the right to mount one")
-            folder = pathlib.Path(made)
-            server = Server(folder, "--audit", str(folder / "audit.jsonl"))
-            try:
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
-                location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
-                filling = folder / "filling"
-                with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
-                    while file.write(b"\0" * 65536):
-                        pass
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
-                self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
-                status, _, body = server.ask("DELETE", location)
-                self.assertEqual(status, 200, body)
-                filling.unlink()
-                self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
-            finally:
-                server.stop()
-                subprocess.run(["umount", "-l", made], check=True)
+        folder = self.small_disk("64m")
+        server = Server(folder, "--audit", str(folder / "audit.jsonl"))
+        self.addCleanup(server.stop)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        location = server.ask("POST", "/v1/plans", plan(draws=1000), ASYNC)[1]["Location"]
+        filling = folder / "filling"
+        with contextlib.suppress(OSError), filling.open("wb", buffering=0) as file:
+            while file.write(b"\0" * 65536):
+                pass
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
+        self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
+        status, _, body = server.ask("DELETE", location)
+        self.assertEqual(status, 200, body)
+        filling.unlink()
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
+
+    def test_jobs_are_dismissed_while_somebody_else_takes_all_room_there_is(self):
+        folder = self.small_disk("24m")
+        server = Server(folder)
+        self.addCleanup(server.stop)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        jobs = [server.ask("POST", "/v1/plans", plan(draws=1000 + k), ASYNC)[1]["Location"] for k in range(12)]
+        reserve, filling, over = folder / "jobs.sqlite.reserve", folder / "filling", threading.Event()
+        whole = reserve.stat().st_size
+        self.assertGreater(whole, 0)
+
+        def fill():
+            with filling.open("ab", buffering=0) as file:
+                while not over.is_set():
+                    try:
+                        file.write(b"\0" * 4096)
+                    except OSError:
+                        time.sleep(0.001)
+
+        filler = threading.Thread(target=fill)
+        filler.start()
+        try:
+            self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
+            statuses = [server.ask("DELETE", job)[0] for job in jobs]
+            left = reserve.stat().st_size
+        finally:
+            over.set()
+            filler.join()
+        print(f"12 jobs were dismissed on a full disk, {left} bytes of the reserve are left")
+        self.assertEqual(statuses, [200] * len(jobs))
+        states = [json.loads(server.ask("GET", job)[2])["state"] for job in jobs]
+        self.assertLessEqual(set(states), {"dismissed", "successful"}, "some ended before")
+        self.assertGreater(left, whole // 2)
+        filling.unlink()
+        self.assertTrue(comes_true(lambda: reserve.stat().st_size == whole, 10), "the reserve is there again")
 
 
 if __name__ == "__main__":

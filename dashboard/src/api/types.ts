@@ -194,7 +194,7 @@ export interface paths {
         };
         /**
          * Where the ground lies in shadow, as a picture to lay over a map
-         * @description The ground is lit where the sun stands over the level and over the horizon of the ground, all of which casts shadows, outside the bounds too. Under one sun: transparent where the ground is lit, dark where it lies in shadow. Under several: in which share of them it is lit, in five classes from dark blue (below a quarter) over a half, three quarters and nine tenths to yellow. Transparent where the terrain has no height. At most 256 cells a side. It knows no time: directions of the sun are those of GET /v1/terrains/{name}/sky.
+         * @description The ground is lit where the sun stands over the level and over the horizon of the ground, all of which casts shadows, outside the bounds too. Under one sun: transparent where the ground is lit, dark where it lies in shadow. Under several: in which share of them it is lit, in five classes from dark blue (below a quarter) over a half, three quarters and nine tenths to yellow. Transparent where the terrain has no height. At most 256 cells a side, under more than 25 suns fewer: 128 under a hundred. It knows no time: directions of the sun are those of GET /v1/terrains/{name}/sky.
          */
         get: operations["terrain_shadow"];
         put?: never;
