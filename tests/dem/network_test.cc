@@ -5,9 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "dem/elevation_source.h"
+#include "dem/gdal_session.h"
 #include "dem/soil_map.h"
 #include "raster_fixture.h"
 
@@ -93,6 +95,62 @@ TEST(Network, GdalItselfCanNoLongerReachTheNetworkOrAFileOnceTheServiceUsesIt) {
   OGRSpatialReference crs;
   EXPECT_NE(crs.importFromUrl(listener.url("crs").c_str()), OGRERR_NONE);
   EXPECT_FALSE(listener.was_asked());
+}
+
+// A file of definitions that PROJ itself understands, to show that it is never opened.
+class ProjectionFence : public testing::Test {
+ protected:
+  std::string init() const { return "+init=" + definitions_ + ":1"; }
+  std::string wkt() const {
+    return R"(PROJCS["x",GEOGCS["g",DATUM["d",SPHEROID["s",3396190,0]],PRIMEM["r",0],UNIT["degree",0.0174532925]],)"
+           R"(PROJECTION["custom_proj4"],UNIT["m",1],EXTENSION["PROJ4","+proj=merc )" +
+           init() + R"("]])";
+  }
+  const test::TemporaryFolder folder_;
+  const std::string definitions_ = folder_.write("definitions", "<1> +proj=eqc +R=1737400 +units=m <>\n");
+};
+
+TEST_F(ProjectionFence, ProjOpensNoFileButThoseOfItsDatabase) {
+  // A context of before the fence, as GDAL's own users have one.
+  OGRSpatialReference before;
+  ASSERT_EQ(before.importFromEPSG(4326), OGRERR_NONE);
+  const GdalSession session(folder_ / "dem.tif");
+  OGRSpatialReference crs;
+  EXPECT_NE(crs.SetFromUserInput(init().c_str()), OGRERR_NONE);
+  EXPECT_EQ(crs.SetFromUserInput("IAU_2015:49910"), OGRERR_NONE);
+  OGRSpatialReference from_wkt;
+  from_wkt.importFromWkt(wkt().c_str());
+  EXPECT_NE(from_wkt.GetSemiMajor(), 1737400.0);
+}
+
+TEST_F(ProjectionFence, NoGridOfATextIsOpened) {
+  const GdalSession session(folder_ / "dem.tif");
+  OGRSpatialReference from, to;
+  ASSERT_EQ(from.SetFromUserInput(("+proj=longlat +R=3396190 +nadgrids=" + definitions_).c_str()),
+            OGRERR_NONE);
+  ASSERT_EQ(to.SetFromUserInput("EPSG:4326"), OGRERR_NONE);
+  const std::unique_ptr<OGRCoordinateTransformation> between(OGRCreateCoordinateTransformation(&from, &to));
+  if (between) {
+    double x = 1.0, y = 2.0;
+    between->Transform(1, &x, &y);
+  }
+  EXPECT_EQ(session.complaints().find("Unrecognized"), std::string::npos) << "it was read";
+}
+
+TEST_F(ProjectionFence, AGeoJsonCannotNameAFileOfDefinitions) {
+  test::write_geotiff(folder_ / "dem.tif", {});
+  const auto ground = open_elevation(folder_ / "dem.tif").value()->info();
+  for (const std::string& name : {init(), definitions_, "proj=eqc init=" + definitions_ + ":1"}) {
+    const auto path = folder_.write(
+        "units.geojson",
+        fmt::format(
+            R"({{"type":"FeatureCollection","crs":{{"type":"name","properties":{{"name":"{}"}}}},"features":[]}})",
+            name));
+    const auto read = read_soil_polygons(path, ground, ground.geometry.extent(), "Name",
+                                         PolygonCoordinates::kLongitudeLatitude, {});
+    ASSERT_FALSE(read) << name;
+    EXPECT_EQ(read.error().faults.front().pointer, "/crs");
+  }
 }
 
 TEST(Network, AGeoJsonThatNamesItsCrsByAddressMakesNoRequest) {
