@@ -52,7 +52,6 @@ void prepare_process_once() {
 
 GdalSession::GdalSession() {
   prepare_process_once();
-  fence_projections_of_thread();
   CPLPushErrorHandlerEx(gather, this);
 }
 

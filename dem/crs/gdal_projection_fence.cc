@@ -1,7 +1,6 @@
 #include "dem/crs/gdal_projection_fence.h"
 
-#include <ogr_spatialref.h>
-#include <ogr_srs_api.h>
+#include <dlfcn.h>
 #include <proj.h>
 
 #include <algorithm>
@@ -14,12 +13,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // The canonical folder of PROJ's database; empty for none.
-fs::path& own_folder() {
-  static auto& folder = *new fs::path;
+const fs::path& own_folder() {
+  static const auto& folder = *new fs::path([] {
+    const char* const database = proj_context_get_database_path(nullptr);
+    std::error_code ignored;
+    return database == nullptr ? fs::path() : fs::weakly_canonical(database, ignored).parent_path();
+  }());
   return folder;
 }
-
-thread_local bool is_fenced = false;
 
 bool admitted(const char* name) {
   std::error_code ignored;
@@ -79,34 +80,24 @@ constexpr PROJ_FILE_API kAdmittedFiles{
     kVersionOfTable, open_admitted, read,          refuse_write,  seek,         tell,
     close,           exists,        refuse_change, refuse_change, refuse_rename};
 
-// A context inherits the default one's finder of files, though not its table of file access: the finder,
-// which is asked for the database first, hands that on. It finds nothing by itself.
-const char* fence_and_find(PJ_CONTEXT* context, const char* /*name*/, void* /*user*/) {
-  is_fenced = proj_context_set_fileapi(context, &kAdmittedFiles, nullptr) != 0;
-  return nullptr;
-}
-
-void ask_for_the_database() {
-  constexpr int kAnySystem = 4326;
-  OGRSpatialReference any;
-  any.importFromEPSG(kAnySystem);
-}
-
 }  // namespace
 
 void raise_projection_fence() {
-  const char* const database = proj_context_get_database_path(nullptr);
-  std::error_code ignored;
-  if (database != nullptr) own_folder() = fs::weakly_canonical(database, ignored).parent_path();
+  own_folder();
   proj_context_set_fileapi(nullptr, &kAdmittedFiles, nullptr);
-  proj_context_set_file_finder(nullptr, fence_and_find, nullptr);
-}
-
-void fence_projections_of_thread() {
-  if (is_fenced) return;
-  // A context from before the fence has no finder, and is made anew.
-  OSRCleanup();
-  ask_for_the_database();
 }
 
 }  // namespace slipway::dem
+
+// Stands before PROJ's own, for GDAL and for PROJ itself, which makes contexts that nobody else sees while it
+// reads WKT: no context inherits its file access from another. Whoever links PROJ statically is told by the
+// linker that this can't be.
+extern "C" PJ_CONTEXT* proj_context_create() {
+  using Create = PJ_CONTEXT* (*)();
+  static const auto create = reinterpret_cast<Create>(::dlsym(RTLD_NEXT, "proj_context_create"));
+  if (create == nullptr) return nullptr;
+  slipway::dem::own_folder();  // is asked for before any file is
+  PJ_CONTEXT* const context = create();
+  if (context != nullptr) proj_context_set_fileapi(context, &slipway::dem::kAdmittedFiles, nullptr);
+  return context;
+}
