@@ -8,6 +8,7 @@
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "api/requests/plan_request.h"
+#include "dem/crs/crs_text.h"
 
 namespace slipway::api {
 namespace {
@@ -73,7 +74,8 @@ Result<TerrainOrder> read_terrain(const Service& service, std::string_view bytes
     reader.text("elevation", json::kRequired, kUploadId, order.elevation);
     reader.text("soil", json::kOptional, kUploadId, order.soil);
     reader.text("legend", json::kOptional, kUploadId, order.legend);
-    reader.text("crs", json::kOptional, {.most = kMaxWords}, import.crs);
+    if (reader.text("crs", json::kOptional, {.most = kMaxWords}, import.crs) && !import.crs.empty())
+      if (const auto fault = dem::fault_of_crs_text(import.crs)) reader.fault("crs", "crs " + *fault);
     reader.text("property", json::kOptional, {.most = 64}, import.property);
     std::size_t coordinates = 0;
     if (reader.choice("soil_coordinates", json::kOptional, {"lonlat", "map"}, coordinates) &&

@@ -7,7 +7,6 @@
 #include <cpl_json.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "core/text_encoding.h"
+#include "dem/crs/gdal_named_crs.h"
 #include "dem/gdal_crs.h"
 
 namespace slipway::dem {
@@ -195,11 +195,11 @@ Result<void> read_crs(const CPLJSONObject& root, PolygonCoordinates stated, cons
   const auto properties = member(*crs, "properties");
   const std::string name = properties ? text_of(member(*properties, "name")) : "";
   if (name.find("CRS84") != std::string::npos) return {};
-  auto found = std::make_unique<OGRSpatialReference>();
-  constexpr std::array<const char*, 3> kHere{"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  auto found = named_crs(name);
   if (name.find("OGC::Engineering") != std::string::npos) {
+    found = std::make_unique<OGRSpatialReference>();
     found->SetLocalCS("Engineering");
-  } else if (name.empty() || found->SetFromUserInput(name.c_str(), kHere.data()) != OGRERR_NONE) {
+  } else if (!found) {
     const std::string shown = name.empty() ? "a system without a name" : fmt::format("\"{}\"", name);
     if (stated == PolygonCoordinates::kMap) {
       units.notes.push_back(fmt::format(

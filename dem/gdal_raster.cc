@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "core/angle.h"
 #include "dem/gdal_crs.h"
 #include "dem/gdal_crs_parts.h"
 #include "dem/gdal_heights.h"
@@ -118,6 +120,21 @@ std::optional<GeoTransform> check_grid(GDALDataset& dataset, const std::string& 
   return g;
 }
 
+// Of shorter cells nothing on the ground is known, and their number overflows.
+void check_cell_size(const GeoTransform& g, const OGRSpatialReference* crs, const std::string& file,
+                     Refusals& refusals) {
+  constexpr double kLeast_m = 1e-3;
+  const double unit_m = crs == nullptr             ? 1.0
+                        : crs->IsGeographic() != 0 ? rad_from_deg(1.0) * crs->GetSemiMajor()
+                                                   : crs->GetLinearUnits();
+  const double side_m = unit_m * std::min(std::hypot(g[1], g[4]), std::hypot(g[2], g[5]));
+  if (side_m == 0.0 || side_m >= kLeast_m) return;  // a grid without cells is refused as such
+  refusals.add(
+      fmt::format("{} has cells of {:.3g} m, must be at least {} m. State where its edges lie with: "
+                  "gdal_translate -a_ullr WEST NORTH EAST SOUTH {} {}, in the map's own coordinates.",
+                  file, side_m, kLeast_m, shell_word(file), shell_word(converted_name(file))));
+}
+
 GridGeometry grid_geometry(GDALDataset& dataset, const GeoTransform& g) {
   return {.rows = dataset.GetRasterYSize(),
           .columns = dataset.GetRasterXSize(),
@@ -166,6 +183,7 @@ std::vector<RasterFault> faults_of(GDALDataset& dataset, const OGRSpatialReferen
   Refusals refusals;
   check_band(dataset, file, band, refusals);
   const std::optional<GeoTransform> grid = check_grid(dataset, file, refusals);
+  if (grid) check_cell_size(*grid, crs, file, refusals);
   if (placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs)) return refusals.take();
   const auto system = horizontal_part(crs);
   const Result<void> metric =

@@ -9,6 +9,8 @@
 #include <array>
 #include <mutex>
 
+#include "dem/crs/gdal_projection_fence.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -28,6 +30,7 @@ void prepare_process() {
   CPLSetConfigOption("OGR_GEOMETRY_ACCEPT_UNCLOSED_RING", "YES");  // unclosed rings are found and named by us
   GDALSetCacheMax64(kBlockCacheBytes);
   raise_file_fence();
+  raise_projection_fence();
   GDALRegister_GTiff();
   GDALRegister_AAIGrid();
   GDALRegister_PDS4();

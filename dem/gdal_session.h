@@ -12,8 +12,8 @@
 namespace slipway::dem {
 
 // One operation on GDAL by one thread. The first one in the process registers the allowed drivers and raises
-// the file fence. While it lives, GDAL's complaints are gathered here and nothing reaches stderr. Sessions
-// on files must not be nested.
+// the fences around files and projections. While it lives, GDAL's complaints are gathered here and nothing
+// reaches stderr. Sessions on files must not be nested.
 class GdalSession {
  public:
   // For work in memory: no file may be opened.

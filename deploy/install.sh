@@ -6,7 +6,7 @@ set -eu
 
 packages="g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libxsimd-dev libfmt-dev libexpected-dev
-  libgdal-dev libompl-dev libboost-dev libceres-dev libsundials-dev
+  libgdal-dev libproj-dev libompl-dev libboost-dev libceres-dev libsundials-dev
   libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libpq-dev libssl-dev zlib1g-dev libcli11-dev libtoml11-dev
   prometheus-cpp-dev libspdlog-dev libarchive-dev"
 if [ "${1:-}" = "--test" ]; then

@@ -291,7 +291,7 @@ int serve(const ServeOptions& given) {
   if (workers)
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
-  RouteOptions of_routes{.override_persons = options.override_persons};
+  RouteOptions of_routes{.admits = http.wants_body, .override_persons = options.override_persons};
   if (const std::string folder = folder_of(options.jobs); !folder.empty()) of_routes.drawing_folder = folder;
   std::vector<Route> routes = api_routes(**service, runner, of_routes);
   const Readiness readiness(readiness_checks(options, *jobs->store, workers));

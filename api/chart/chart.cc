@@ -314,6 +314,10 @@ std::string xml_text(std::string_view text) {
   return escaped;
 }
 
+std::string svg_text(std::string_view attributes, std::string_view words) {
+  return fmt::format("<text {}>{}</text>", attributes, xml_text(words));
+}
+
 std::string draw_charts(std::string_view title, std::span<const Chart> charts) {
   const std::size_t across =
       std::clamp<std::size_t>(charts.size() == 4 ? 2 : charts.size(), 1, kPanelsInARow);

@@ -75,4 +75,7 @@ std::vector<double> nice_ticks(double lowest, double highest, int wanted);
 // The text for an XML document: &, <, > and quotes become entities, control characters become spaces.
 std::string xml_text(std::string_view text);
 
+// The element of a picture's text, whose words may be anybody's.
+std::string svg_text(std::string_view attributes, std::string_view words);
+
 }  // namespace slipway::api

@@ -15,6 +15,7 @@
 #include "api/files/terrain_site.h"
 #include "api/files/whole_file.h"
 #include "api/json/faults.h"
+#include "dem/crs/crs_text.h"
 
 namespace slipway::api {
 namespace {
@@ -72,6 +73,8 @@ Result<LegendTable> check_order(const TerrainImport& order, const std::string& n
   if (order.gravity_m_s2 && !(*order.gravity_m_s2 > 0.0 && *order.gravity_m_s2 <= 30.0))
     faults.push_back(
         {"--gravity", fmt::format("gravity = {} m/s^2, must be in (0, 30]", *order.gravity_m_s2)});
+  if (const auto fault = order.crs.empty() ? std::nullopt : dem::fault_of_crs_text(order.crs))
+    faults.push_back({"--crs", *fault});
   if (order.legend && !order.soil) faults.push_back({"--legend", "needs --soil"});
   if (order.legend && order.soil) {
     const auto text = read_data_file(*order.legend);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/chart/base64.h"
+#include "api/chart/chart.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/report/thinned_ground.h"
@@ -211,9 +212,11 @@ class Picture {
   void label_route(const DrawnRoute& route, std::size_t place, std::size_t of) {
     const std::size_t at = route.x_m.size() * (place + 1) / (of + 1);
     out_ += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"11\" fill=\"white\" stroke=\"black\"/>"
-        "<text x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\" font-weight=\"bold\">{3}</text>\n",
-        x(route.x_m[at]), y(route.y_m[at]), y(route.y_m[at]) + 5.0, route.rank);
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"11\" fill=\"white\" stroke=\"black\"/>{2}\n",
+        x(route.x_m[at]), y(route.y_m[at]),
+        svg_text(fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-weight=\"bold\"",
+                             x(route.x_m[at]), y(route.y_m[at]) + 5.0),
+                 route.rank));
     mark_worst(route);
   }
 
@@ -275,10 +278,13 @@ class Picture {
 
   void mark(double x_m, double y_m, std::string_view words) {
     out_ += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"12\" fill=\"yellow\" stroke=\"black\"/>"
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\" stroke=\"white\" stroke-width=\"3\" "
-        "paint-order=\"stroke\">{}</text>\n",
-        x(x_m) - 6.0, y(y_m) - 6.0, x(x_m) + 10.0, y(y_m) + 5.0, words);
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"12\" fill=\"yellow\" stroke=\"black\"/>{}\n",
+        x(x_m) - 6.0, y(y_m) - 6.0,
+        svg_text(
+            fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\" stroke=\"white\" stroke-width=\"3\" "
+                        "paint-order=\"stroke\"",
+                        x(x_m) + 10.0, y(y_m) + 5.0),
+            words));
   }
 
   void scale_bar() {
@@ -286,22 +292,23 @@ class Picture {
     const double power = std::pow(10.0, std::floor(std::log10(wide_m)));
     const double length_m = power * (wide_m / power >= 5.0 ? 5.0 : wide_m / power >= 2.0 ? 2.0 : 1.0);
     out_ += fmt::format(
-        "<rect x=\"12\" y=\"{0:.1f}\" width=\"{1:.1f}\" height=\"6\" fill=\"black\" stroke=\"white\"/>"
-        "<text x=\"12\" y=\"{2:.1f}\" stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{3:g} m, "
-        "north is up</text>\n",
-        height_px_ - 18.0, scale_ * length_m, height_px_ - 24.0, length_m);
+        "<rect x=\"12\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"6\" fill=\"black\" stroke=\"white\"/>{}\n",
+        height_px_ - 18.0, scale_ * length_m,
+        svg_text(
+            fmt::format("x=\"12\" y=\"{:.1f}\" stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\"",
+                        height_px_ - 24.0),
+            fmt::format("{:g} m, north is up", length_m)));
   }
 
   void legend(std::string_view title) {
     double at = 24.0;
     const double left = kMapWidth_px + 14.0;
     const auto row = [&](const std::string& sign, std::string_view words) {
-      out_ +=
-          fmt::format("<g transform=\"translate({:.0f} {:.0f})\">{}<text x=\"36\" y=\"5\">{}</text></g>\n",
-                      left, at, sign, words);
+      out_ += fmt::format("<g transform=\"translate({:.0f} {:.0f})\">{}{}</g>\n", left, at, sign,
+                          svg_text("x=\"36\" y=\"5\"", words));
       at += 24.0;
     };
-    out_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", left, at, title);
+    out_ += svg_text(fmt::format("x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\"", left, at), title) + "\n";
     at += 26.0;
     for (const ValueColour& c : colours_)
       row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);

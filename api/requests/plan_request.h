@@ -92,9 +92,9 @@ struct RequestLimits {
   static constexpr double kMinSpeed_m_s = 1e-4;  // slower drives take longer than any mission
   static constexpr double kMinSegment_m = 10.0;
   static constexpr int kRoutes = 8;
-  static constexpr double kDepartureDays = 100.0;  // from the first to the last
-  static constexpr std::size_t kSkyMoments = 20'000;
-  static constexpr int kDepartures = 500;  // that are tried
+  static constexpr double kDepartureDays = 100.0;   // from the first to the last
+  static constexpr std::size_t kSkyMoments = 4000;  // a body of a mebibyte holds them
+  static constexpr int kDepartures = 500;           // that are tried
   static constexpr double kStartError_m = 20.0, kStartError_deg = 45.0;
   static constexpr int kDraws = 2000;
   static constexpr int kMaxSol = 1'000'000;

@@ -1,6 +1,5 @@
 #include "dem/import/gdal_import_arrangement.h"
 
-#include <cpl_string.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,14 +59,6 @@ void measure_in_metres(Arrangement& a) {
 }
 
 }  // namespace
-
-std::unique_ptr<OGRSpatialReference> named_system(const std::string& name) {
-  auto crs = std::make_unique<OGRSpatialReference>();
-  const CPLStringList limits(
-      CSLAddString(CSLAddString(nullptr, "ALLOW_NETWORK_ACCESS=NO"), "ALLOW_FILE_ACCESS=NO"), TRUE);
-  if (crs->SetFromUserInput(name.c_str(), limits.List()) != OGRERR_NONE) return nullptr;
-  return crs;
-}
 
 Arrangement arrange(GDALDataset& dataset, const OGRSpatialReference& crs) {
   Arrangement a;

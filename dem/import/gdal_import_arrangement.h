@@ -24,9 +24,6 @@ struct Arrangement {
   std::vector<std::string> changes;
 };
 
-// The horizontal part of a system that a person names, without network and files; nothing of an unknown one.
-std::unique_ptr<OGRSpatialReference> named_system(const std::string& name);
-
 // How cells and coordinates come to be in metres, north-up. crs: the horizontal part of the raster's system.
 Arrangement arrange(GDALDataset& dataset, const OGRSpatialReference& crs);
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "dem/crs/crs_text.h"
+#include "dem/crs/gdal_named_crs.h"
 #include "dem/gdal_crs.h"
 #include "dem/gdal_crs_parts.h"
 #include "dem/gdal_import.h"
@@ -132,8 +134,10 @@ Result<Opened> open_map(const ElevationImport& order, const GdalSession& session
   if (!dataset) return fail(dataset.error());
   map.dataset = *std::move(dataset);
   std::unique_ptr<OGRSpatialReference> stated;
-  if (!order.crs.empty() && !(stated = named_system(order.crs)))
-    return fail(ErrorCode::kInvalidRequest, "--crs is not a system that PROJ knows: " + session.complaints(),
+  if (!order.crs.empty() && !(stated = named_crs(order.crs)))
+    return fail(ErrorCode::kInvalidRequest,
+                "--crs is not a system that PROJ knows: " +
+                    fault_of_crs_text(order.crs).value_or(session.complaints()),
                 {{"--crs", order.crs}});
   if (stated) map.arrangement.changes.push_back("the system was stated by --crs: " + order.crs);
   map.crs = stated ? horizontal_part(stated.get()) : system_of(*map.dataset);

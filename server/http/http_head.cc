@@ -97,13 +97,18 @@ class HeadReader {
                    fmt::format("the methods known are {}", fmt::join(kMethods, ", ")),
                    {}};
     }
-    const auto target = checked_target(method, line.substr(first + 1, last - first - 1));
+    const std::string_view sent = line.substr(first + 1, last - first - 1);
+    const auto target = checked_target(method, sent);
     if (!target) return bad("the request's target is not a path and query in percent-encoded UTF-8");
     out_.method = method;
     one_point_one_ = version == "HTTP/1.1";
     out_.path = target->substr(0, target->find('?'));
     out_.large = options_.large_bodies.take(method, out_.path);
     out_.forwarded = fmt::format("{} {} {}\r\n", method, *target, version);
+    // The address in the request line counts, whatever Host says [RFC 9112, 3.2.2].
+    authority_ = authority_in(sent);
+    if (authority_ && authority_->empty()) return bad("the request's target names no host");
+    if (authority_) out_.forwarded += fmt::format("Host: {}\r\n", *authority_);
     return std::nullopt;
   }
 
@@ -118,7 +123,8 @@ class HeadReader {
     if (!is_field_value(value)) return bad("a header's value contains a control character");
     if (auto fault = framing_field(name, value)) return fault;
     const auto is_name = [&](std::string_view other) { return equal_ignoring_case(name, other); };
-    if (std::any_of(kNotForwarded.begin(), kNotForwarded.end(), is_name)) return std::nullopt;
+    if (std::any_of(kNotForwarded.begin(), kNotForwarded.end(), is_name) || (authority_ && is_name("host")))
+      return std::nullopt;
     const bool withheld = std::any_of(kWithheldNames.begin(), kWithheldNames.end(), is_name);
     fmt::format_to(std::back_inserter(out_.forwarded), "{}{}: {}\r\n", withheld ? kWithheld : "", name,
                    value);
@@ -135,6 +141,7 @@ class HeadReader {
       out_.framing = BodyFraming::kChunked;
     } else if (equal_ignoring_case(name, "host")) {
       ++hosts_;
+      if (value.empty()) return bad("the Host header names no host");
     } else if (equal_ignoring_case(name, "connection")) {
       connection_field(value);
     } else if (equal_ignoring_case(name, "expect")) {
@@ -192,10 +199,25 @@ class HeadReader {
     const std::vector<std::string>& known =
         out_.large ? options_.large_bodies.media_types : options_.body_media_types;
     for (const std::string& one : known)
-      if (equal_ignoring_case(type, one)) return std::nullopt;
+      if (equal_ignoring_case(type, one)) return out_.large ? std::nullopt : charset(whole.substr(semicolon));
     return Error{ErrorCode::kUnsupportedMediaType,
                  fmt::format("a body needs a Content-Type, one of: {}", fmt::join(known, ", ")),
                  {}};
+  }
+
+  // What is read as text is UTF-8 [RFC 8259, 8.1].
+  static MaybeError charset(std::string_view parameters) {
+    while (!parameters.empty()) {
+      parameters.remove_prefix(1);
+      const std::string_view one = trimmed(parameters.substr(0, parameters.find(';')));
+      parameters.remove_prefix(std::min(parameters.find(';'), parameters.size()));
+      const std::size_t equals = std::min(one.find('='), one.size());
+      const std::string_view value = one.substr(std::min(equals + 1, one.size()));
+      if (equal_ignoring_case(one.substr(0, equals), "charset") && !equal_ignoring_case(value, "utf-8") &&
+          !equal_ignoring_case(value, "\"utf-8\""))
+        return Error{ErrorCode::kUnsupportedMediaType, "a body's charset must be utf-8", {}};
+    }
+    return std::nullopt;
   }
 
   const HttpOptions& options_;
@@ -203,6 +225,7 @@ class HeadReader {
   bool one_point_one_ = false;
   bool closes_ = false;
   int hosts_ = 0;
+  std::optional<std::string_view> authority_;  // of a target in absolute form
   std::optional<std::string> content_type_;
 };
 

@@ -36,15 +36,17 @@ std::size_t printable_code_point(std::string_view text) {
   return code >= 0x10000 && code <= 0x10ffff ? 4 : 0;
 }
 
-// The absolute form "http://host/path", which a server must accept as well [RFC 9112, 3.2.2].
+// What stands before the authority in the absolute form "http://host/path", which a server must accept as
+// well [RFC 9112, 3.2.2]; empty in another one.
+std::string_view scheme_of(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"})
+    if (equal_ignoring_case(target.substr(0, scheme.size()), scheme)) return target.substr(0, scheme.size());
+  return {};
+}
+
 std::string_view without_origin(std::string_view target) {
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (!equal_ignoring_case(target.substr(0, scheme.size()), scheme)) continue;
-    const std::size_t end = target.find_first_of("/?", scheme.size());
-    if (end == std::string_view::npos || target[end] == '?') return {};
-    return target.substr(end);
-  }
-  return target;
+  const auto authority = authority_in(target);
+  return authority ? target.substr(scheme_of(target).size() + authority->size()) : target;
 }
 
 }  // namespace
@@ -76,11 +78,18 @@ bool is_printable_utf8(std::string_view text) {
   return true;
 }
 
+std::optional<std::string_view> authority_in(std::string_view target) {
+  const std::string_view scheme = scheme_of(target);
+  if (scheme.empty()) return std::nullopt;
+  target.remove_prefix(scheme.size());
+  return target.substr(0, target.find_first_of("/?"));
+}
+
 std::optional<std::string> checked_target(std::string_view method, std::string_view target) {
   if (target == "*" && method == "OPTIONS") return std::string(target);
   const std::string_view origin = without_origin(target);
   if (origin.empty() || origin.front() != '/') return std::nullopt;
-  for (const char c : origin) {
+  for (const char c : target) {
     // A fragment is the client's own business and is never sent; beyond ASCII everything is to be
     // percent-encoded.
     if (c <= ' ' || c >= 0x7f || c == '#') return std::nullopt;

@@ -11,6 +11,9 @@ namespace slipway::server {
 // have to be escaped by everyone after us (logs, problem documents, file names): it is refused here, once.
 std::optional<std::string> checked_target(std::string_view method, std::string_view target);
 
+// The host and port that a target in absolute form ("http://host:80/path") is at; nothing in another form.
+std::optional<std::string_view> authority_in(std::string_view target);
+
 // "%41" becomes "A". Empty when a percent sign is not followed by two hexadecimal digits.
 std::optional<std::string> percent_decoded(std::string_view text);
 

@@ -131,9 +131,6 @@ Result<std::optional<Access::Holder>> Access::holder_of(
   const auto holder = token ? holders_.find(hash) : holders_.end();
   if (holder == holders_.end())
     return fail(ErrorCode::kUnauthorized, token ? "the token is not known here" : "a token is needed here");
-  if (holder->second.role == Role::kViewer && !only_reads(method))
-    return fail(ErrorCode::kForbidden,
-                fmt::format("{} is a viewer, who changes nothing", holder->second.name));
   return holder->second;
 }
 
@@ -143,9 +140,14 @@ std::string Access::name_of(std::string_view method, std::string_view path,
   return holder && *holder ? (*holder)->name : "";
 }
 
+bool Access::may(const Holder& holder, std::string_view method) {
+  return holder.role != Role::kViewer || only_reads(method);
+}
+
 bool Access::refuses(std::string_view method, std::string_view path,
                      const std::optional<std::string>& authorization) const {
-  return !holder_of(method, path, authorization);
+  const auto holder = holder_of(method, path, authorization);
+  return !holder || (*holder && !may(**holder, method));
 }
 
 Result<void> Access::admit(HttpRequest& request) {
@@ -155,6 +157,9 @@ Result<void> Access::admit(HttpRequest& request) {
   if (*holder) {
     request.principal = (*holder)->name;
     request.is_admin = (*holder)->role == Role::kAdmin;
+    if (!may(**holder, request.method))
+      return fail(ErrorCode::kForbidden,
+                  fmt::format("{} is a viewer, who changes nothing", request.principal));
   }
   if (!is_within_rate(request.principal))
     return fail(ErrorCode::kTooManyRequests,

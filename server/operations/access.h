@@ -46,8 +46,8 @@ class Access {
   // leaves the tokens that were. How many are known now.
   Result<std::size_t> read_again();
 
-  // Whether the request may be answered; it then knows who asks. Errors: unauthorized (no token, or one that
-  // is not known), forbidden (the role does not allow it), too_many_requests.
+  // Whether the request may be answered; it knows who asks in either case. Errors: unauthorized (no token, or
+  // one that is not known), forbidden (the role does not allow it), too_many_requests.
   Result<void> admit(HttpRequest& request);
 
   // The name of the token that a request of this method, path and Authorization header comes with; empty
@@ -75,9 +75,10 @@ class Access {
   explicit Access(AccessOptions options) : options_(std::move(options)) {}
   using Holders = std::map<std::string, Holder, std::less<>>;  // by the token's hash
   static Result<Holders> read_tokens(const std::string& path);
-  // Who asks; nothing where nobody needs a token. Errors: unauthorized, forbidden.
+  // Who asks, whatever that holder may do; nothing where nobody needs a token. Errors: unauthorized.
   Result<std::optional<Holder>> holder_of(std::string_view method, std::string_view path,
                                           const std::optional<std::string>& authorization) const;
+  static bool may(const Holder& holder, std::string_view method);
   bool is_within_rate(const std::string& who);
 
   AccessOptions options_;

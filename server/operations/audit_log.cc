@@ -22,8 +22,9 @@ namespace slipway::server {
 
 namespace {
 
-// Of a body in memory or in a file; empty where the file can't be read.
+// Of a body in memory or in a file; empty where none was read, or the file can't be.
 std::string body_sha256(const HttpRequest& request) {
+  if (request.body.empty() && !request.body_file) return {};
   Sha256 hash;
   hash.add(request.body);
   if (!request.body_file) return hash.digest();
@@ -110,7 +111,8 @@ void AuditLog::record(const AnsweredRequest& answered) {
       .text("time", utc_text(now_ms()))
       .text("who", request.principal)
       .text("address", request.remote_address);
-  w.text("method", request.method).text("path", request.path).text("body_sha256", body_sha256(request));
+  w.text("method", request.method).text("path", request.path);
+  if (const std::string hash = body_sha256(request); !hash.empty()) w.text("body_sha256", hash);
   w.whole("status", answered.response.status);
   w.text("location", answered.response.header("Location").value_or(""));
   w.text("id", request.id);

@@ -29,6 +29,13 @@ constexpr std::string_view kJsonLines = "application/jsonl";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr std::string_view kSvg = "image/svg+xml";
 
+// What a browser opens as a page of this service runs nothing and loads nothing.
+void confine_page(HttpResponse& response) {
+  response.headers.emplace_back("Content-Security-Policy",
+                                fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
+  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+}
+
 }  // namespace
 
 Result<api::Job> find_job(api::JobStore& store, const HttpRequest& request) {
@@ -140,6 +147,7 @@ HttpResponse JobAnswers::map(const HttpRequest& request) {
   if (!svg) return problem_response(svg.error(), &request);
   HttpResponse response = document(**svg);
   response.content_type = kSvg;
+  confine_page(response);
   const std::string tag = tag_of(response.body);
   return tagged(std::move(response), tag, request);
 }
@@ -162,9 +170,7 @@ HttpResponse JobAnswers::report(const HttpRequest& request) {
   if (!page) return problem_response(page.error(), &request);
   HttpResponse response = document(**page);
   response.content_type = kHtml;
-  response.headers.emplace_back("Content-Security-Policy",
-                                fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
-  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  confine_page(response);
   const std::string tag = tag_of(response.body);
   return tagged(std::move(response), tag, request);
 }

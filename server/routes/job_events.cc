@@ -58,10 +58,13 @@ Result<HttpResponse> JobEvents::open(const api::Job& job, const HttpRequest& req
   response.content_type = kEventStream;
   response.headers.emplace_back("Cache-Control", "no-store");
   response.headers.emplace_back("X-Accel-Buffering", "no");  // a proxy is to pass each event on at once
-  response.stream = [this, id = job.id, heard](std::shared_ptr<AnswerStream> stream) {
+  const auto may_hear = [this, path = request.raw_path, authorization = request.header("Authorization")] {
+    return !options_.admits || options_.admits("GET", path, authorization);
+  };
+  response.stream = [this, id = job.id, heard, may_hear](std::shared_ptr<AnswerStream> stream) {
     {
       const std::lock_guard lock(mutex_);
-      listeners_.push_back({id, heard, std::move(stream), Clock::now()});
+      listeners_.push_back({id, heard, std::move(stream), Clock::now(), may_hear});
       has_new_ = true;
     }
     changed_.notify_all();
@@ -97,6 +100,12 @@ void JobEvents::look(std::unique_lock<std::mutex>& lock) {
   });
 }
 
+bool JobEvents::send(Listener& listener, std::string_view bytes) {
+  if (listener.may_hear()) return listener.stream->send(bytes);
+  listener.stream->end();
+  return false;
+}
+
 bool JobEvents::tell(Listener& listener, const Seen& seen) {
   const Clock::time_point now = Clock::now();
   if (!seen.job) {  // it is not kept any more
@@ -105,11 +114,11 @@ bool JobEvents::tell(Listener& listener, const Seen& seen) {
   }
   if (seen.job->version != listener.heard) {
     if (seen.event.empty()) return true;  // this one came meanwhile
-    if (!listener.stream->send(seen.event)) return false;
+    if (!send(listener, seen.event)) return false;
     listener.heard = seen.job->version;
     listener.last_sent = now;
   } else if (now - listener.last_sent >= options_.heartbeat_every) {
-    if (!listener.stream->send(":\n\n")) return false;
+    if (!send(listener, ":\n\n")) return false;
     listener.last_sent = now;
   }
   if (!api::has_ended(seen.job->state)) return true;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct JobEventOptions {
   std::size_t max_streams = 1000;
   std::chrono::milliseconds look_every{250};          // at the jobs that somebody listens to
   std::chrono::milliseconds heartbeat_every{15'000};  // a comment, which finds clients that have vanished
+  // Whether who sent such a request may still hear the answer; where not, the stream ends before what it
+  // would be told next. Empty: everybody may.
+  std::function<bool(std::string_view method, std::string_view path,
+                     const std::optional<std::string>& authorization)>
+      admits = {};
 };
 
 // Server-sent events [the HTML standard, 9.2] of jobs: the status of a job at once and whenever it has
@@ -49,6 +55,7 @@ class JobEvents {
     std::int64_t heard = -1;  // version of the last event
     std::shared_ptr<AnswerStream> stream;
     Clock::time_point last_sent;
+    std::function<bool()> may_hear;
   };
 
   void run();
@@ -60,6 +67,7 @@ class JobEvents {
   };
   // False: the listener is to be forgotten.
   bool tell(Listener& listener, const Seen& seen);
+  static bool send(Listener& listener, std::string_view bytes);
   void look(std::unique_lock<std::mutex>& lock);
 
   api::JobStore& store_;

@@ -28,12 +28,14 @@ constexpr Threads kHeavy = Threads::kHeavy;
 class JobRoutes {
  public:
   JobRoutes(const api::Service& service, api::JobRunner& runner, const RouteOptions& options,
-            std::shared_ptr<JobAnswers> answers)
+            const std::vector<api::JobKind>& kinds, std::shared_ptr<JobAnswers> answers)
       : service_(service),
         runner_(runner),
         options_(options),
+        kinds_(kinds),
         answers_(std::move(answers)),
-        events_(runner.store(), [this](const api::Job& job) { return status_of(job); }) {}
+        events_(runner.store(), [this](const api::Job& job) { return status_of(job); },
+                {.admits = options.admits}) {}
 
   // Records a request without faults, and waits for its end where the client wants that.
   HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
@@ -72,6 +74,7 @@ class JobRoutes {
     Query query(request, {"limit", "kind", "state"});
     const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
     const std::string kind = query.text("kind"), state = query.text("state");
+    if (!kind.empty() && api::find_kind(kinds_, kind) == nullptr) query.fault("kind", must_be_a_kind());
     if (!state.empty() && !api::job_state(state))
       query.fault("state", fmt::format("must be one of {}", fmt::join(api::job_state_names(), ", ")));
     if (const auto error = query.error()) return problem_response(*error, &request);
@@ -116,6 +119,12 @@ class JobRoutes {
   }
 
  private:
+  std::string must_be_a_kind() const {
+    std::vector<std::string_view> names;
+    for (const api::JobKind& kind : kinds_) names.push_back(kind.name);
+    return fmt::format("must be one of {}", fmt::join(names, ", "));
+  }
+
   HttpResponse created(const api::Job& job) {
     HttpResponse response = document(api::json::write_job(job, std::nullopt, queue_of(job)), 201);
     response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
@@ -168,6 +177,7 @@ class JobRoutes {
   const api::Service& service_;
   api::JobRunner& runner_;
   RouteOptions options_;
+  const std::vector<api::JobKind>& kinds_;
   std::shared_ptr<JobAnswers> answers_;
   std::atomic<int> waiting_{0};
   JobEvents events_;
@@ -178,7 +188,7 @@ class JobRoutes {
 std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runner,
                               const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
   const auto answers = std::make_shared<JobAnswers>(service, runner.store(), kinds, options.drawing_folder);
-  const auto jobs = std::make_shared<JobRoutes>(service, runner, options, answers);
+  const auto jobs = std::make_shared<JobRoutes>(service, runner, options, kinds, answers);
   std::vector<Route> routes{
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},

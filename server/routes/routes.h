@@ -3,6 +3,10 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/job_kinds.h"
@@ -19,6 +23,10 @@ struct RouteOptions {
   std::size_t most_listed = 500;
   // Where answers are drawn that are too large for the memory; as many as are kept take 256 MB.
   std::filesystem::path drawing_folder = std::filesystem::temp_directory_path();
+  // See JobEventOptions.
+  std::function<bool(std::string_view method, std::string_view path,
+                     const std::optional<std::string>& authorization)>
+      admits = {};
   int override_persons = 2;  // 2: who confirms an override is not who asked for it
 };
 

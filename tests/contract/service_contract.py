@@ -66,11 +66,16 @@ class ServiceContract(WithServer):
 
     def test_a_name_that_is_not_the_servers_is_refused(self):
         for host, expected in (("evil.example.org", 421), (f"evil.example.org:{self.server.port}", 421), ("localhost", 200),
-                               (f"LOCALHOST:{self.server.port}", 200), ("10.1.2.3", 200), ("[::1]:80", 200), ("10.1.2.3.evil.example.org", 421)):
+                               (f"LOCALHOST:{self.server.port}", 200), ("10.1.2.3", 200), ("[::1]:80", 200), ("localhost:", 200), ("[::1].evil.example.org", 421),
+                               ("localhost:x", 421), ("localhost:99999", 421), ("", 400), ("[localhost]", 421), ("10.1.2.3.evil.example.org", 421)):
             status, _, body = self.server.ask("GET", "/v1/rovers", headers={"Host": host})
             self.assertEqual(status, expected, host)
             if expected == 421:
                 self.assertIn(b"foreign_host", body)
+        # The address in the request line counts, whatever Host says.
+        for target, expected in (("http://evil.example.org/healthz", 421), ("http://localhost@evil.example.org/healthz", 421),
+                                 (f"http://localhost:{self.server.port}/healthz", 200)):
+            self.assertEqual(self.server.ask("GET", target, headers={"Host": "localhost"})[0], expected, target)
         with tempfile.TemporaryDirectory() as folder:
             server = Server(pathlib.Path(folder), "--allow-host", "rover-desk")
             try:
@@ -78,6 +83,14 @@ class ServiceContract(WithServer):
                 self.assertEqual(server.ask("GET", "/v1/rovers", headers={"Host": "rover"})[0], 421)
             finally:
                 server.stop()
+
+    def test_a_kind_or_charset_that_is_not_known_is_refused(self):
+        status, _, body = self.server.ask("GET", "/v1/jobs?kind=';--")
+        self.assertEqual(status, 422, body)
+        self.assertIn("prediction", json.loads(body)["faults"][0]["message"])
+        for charset, expected in (("utf-16", 415), ('"utf-16"', 415), ("UTF-8", 422), ('"utf-8"', 422)):
+            headers = {"Content-Type": f"application/json; charset={charset}"}
+            self.assertEqual(self.server.ask("POST", "/v1/predictions", b"{}", headers)[0], expected, charset)
 
     def test_web_pages_of_the_listed_origins_may_read(self):
         page = {"Origin": "http://localhost:5173"}

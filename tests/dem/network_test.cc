@@ -2,12 +2,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/inotify.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
 
 #include "dem/elevation_source.h"
+#include "dem/gdal_session.h"
 #include "dem/soil_map.h"
 #include "raster_fixture.h"
 
@@ -93,6 +98,77 @@ TEST(Network, GdalItselfCanNoLongerReachTheNetworkOrAFileOnceTheServiceUsesIt) {
   OGRSpatialReference crs;
   EXPECT_NE(crs.importFromUrl(listener.url("crs").c_str()), OGRERR_NONE);
   EXPECT_FALSE(listener.was_asked());
+}
+
+// A file of definitions that PROJ itself understands, and whether anybody has opened it.
+class ProjectionFence : public testing::Test {
+ protected:
+  ProjectionFence() { inotify_add_watch(watch_, definitions_.c_str(), IN_OPEN); }
+  ~ProjectionFence() override { close(watch_); }
+  bool was_opened() const {
+    std::array<char, 4096> events{};
+    return read(watch_, events.data(), events.size()) > 0;
+  }
+  std::string init() const { return "+init=" + definitions_ + ":1"; }
+
+  const test::TemporaryFolder folder_;
+  const std::string definitions_ = folder_.write("definitions", "<1> +proj=eqc +R=1737400 +units=m <>\n");
+
+ private:
+  const int watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+};
+
+TEST_F(ProjectionFence, TheWatchSeesAnOpenedFile) {  // so that the silence below means something
+  EXPECT_FALSE(was_opened());
+  std::ifstream(definitions_).get();
+  EXPECT_TRUE(was_opened());
+}
+
+TEST_F(ProjectionFence, ProjOpensNoFileButThoseOfItsDatabase) {
+  // A context of before the fence, as GDAL's other users have one.
+  OGRSpatialReference before;
+  ASSERT_EQ(before.importFromEPSG(4326), OGRERR_NONE);
+  const GdalSession session(folder_ / "dem.tif");
+  OGRSpatialReference crs;
+  EXPECT_EQ(crs.SetFromUserInput("IAU_2015:49910"), OGRERR_NONE);
+  EXPECT_NE(crs.SetFromUserInput(init().c_str()), OGRERR_NONE);
+  EXPECT_FALSE(was_opened());
+  // As a .prj or a GeoTIFF can have it.
+  const std::string wkt =
+      R"(PROJCS["x",GEOGCS["g",DATUM["d",SPHEROID["s",3396190,0]],PRIMEM["r",0],UNIT["degree",0.01745]],)"
+      R"(PROJECTION["custom_proj4"],UNIT["m",1],EXTENSION["PROJ4","+proj=merc )" +
+      init() + R"("]])";
+  crs.importFromWkt(wkt.c_str());
+  EXPECT_FALSE(was_opened());
+}
+
+TEST_F(ProjectionFence, NoGridOfATextIsOpened) {
+  const GdalSession session(folder_ / "dem.tif");
+  OGRSpatialReference from, to;
+  ASSERT_EQ(from.SetFromUserInput(("+proj=longlat +R=3396190 +nadgrids=" + definitions_).c_str()),
+            OGRERR_NONE);
+  ASSERT_EQ(to.SetFromUserInput("EPSG:4326"), OGRERR_NONE);
+  const std::unique_ptr<OGRCoordinateTransformation> between(OGRCreateCoordinateTransformation(&from, &to));
+  double x = 1.0, y = 2.0;
+  if (between) between->Transform(1, &x, &y);
+  EXPECT_FALSE(was_opened());
+}
+
+TEST_F(ProjectionFence, AGeoJsonCannotNameAFileOfDefinitions) {
+  test::write_geotiff(folder_ / "dem.tif", {});
+  const auto ground = open_elevation(folder_ / "dem.tif").value()->info();
+  for (const std::string& name : {init(), definitions_, "proj=eqc init=" + definitions_ + ":1"}) {
+    const auto path = folder_.write(
+        "units.geojson",
+        fmt::format(
+            R"({{"type":"FeatureCollection","crs":{{"type":"name","properties":{{"name":"{}"}}}},"features":[]}})",
+            name));
+    const auto read = read_soil_polygons(path, ground, ground.geometry.extent(), "Name",
+                                         PolygonCoordinates::kLongitudeLatitude, {});
+    ASSERT_FALSE(read) << name;
+    EXPECT_EQ(read.error().faults.front().pointer, "/crs");
+    EXPECT_FALSE(was_opened());
+  }
 }
 
 TEST(Network, AGeoJsonThatNamesItsCrsByAddressMakesNoRequest) {

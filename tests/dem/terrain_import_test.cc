@@ -230,7 +230,8 @@ TEST_F(TerrainImport, AMapWithoutASystemNeedsOneThatIsStated) {
   const auto made = imported(options, false, test::kMarsSphere);
   ASSERT_TRUE(made) << told(made);
   EXPECT_EQ(made->info.body, "Mars");
-  expect_parts(told(imported(options, false, "https://example.org/crs.wkt")), {"--crs is not a system"});
+  expect_parts(told(imported(options, false, "https://example.org/crs.wkt")),
+               {"--crs is not a system", "IAU_2015:49910"});
 }
 
 TEST_F(TerrainImport, AMapOfHalfAPlanetIsToBeCutFirst) {

@@ -25,7 +25,7 @@ MAY_SEE = {
 # room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
 # for neighbours that do not see each other. "." is the room itself; a room that is not listed has no folders.
 FOLDERS = {
-    "dem": [".", "horizon", "import", "write"],
+    "dem": ["crs", ".", "horizon", "import", "write"],
     "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
     "planner": ["problem", "search", "timing", "judge", "maps", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/follow", "diagnosis/decide", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
@@ -39,7 +39,8 @@ MOST_SOURCES = 30  # .cc files in one folder
 
 # vendor header -> the only files of ours that may include it.
 FENCES = [
-    (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/((import|write)/)?gdal_\w+\.(cc|h)"),
+    (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/((crs|import|write)/)?gdal_\w+\.(cc|h)"),
+    (r"proj\.h", r"dem/crs/gdal_projection_fence\.cc"),
     (r"ompl/.*", r"planner/search/ompl_\w+\.(cc|h)"),
     (r"(cvode|sundials|nvector|sunlinsol|sunmatrix)/.*", r"sim/dynamic/cvode_\w+\.cc"),
     (r"(kinsol)/.*", r"sim/quasi_static/kinsol_\w+\.cc"),

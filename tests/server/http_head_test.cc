@@ -110,7 +110,24 @@ TEST(RequestHead, MalformedRequestLinesAreRefused) {
 TEST(RequestHead, TheAbsoluteFormOfATargetIsReadAsItsPath) {
   const auto head = read("GET HTTP://host:1/a?b HTTP/1.1\r\nHost: t\r\n\r\n");
   ASSERT_TRUE(head);
-  EXPECT_TRUE(head->forwarded.starts_with("GET /a?b HTTP/1.1\r\n")) << head->forwarded;
+  // Its address stands for that of Host.
+  EXPECT_EQ(head->forwarded, "GET /a?b HTTP/1.1\r\nHost: host:1\r\n\r\n");
+  EXPECT_EQ(refusal("GET http:///a HTTP/1.1\r\nHost: t\r\n\r\n"), kMalformed);
+  EXPECT_EQ(refusal("GET http://a\tb/ HTTP/1.1\r\nHost: t\r\n\r\n"), kMalformed);
+}
+
+TEST(RequestHead, AHostWithoutANameAndACharsetThatIsNotUtf8AreRefused) {
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nHost:\r\n\r\n"), kMalformed);
+  for (const auto& [type, expected] :
+       {std::pair{"application/json; charset=utf-16", "unsupported_media_type"},
+        {"application/json;a=b;Charset=\"latin1\"", "unsupported_media_type"},
+        {"application/json;charset=\"UTF-8\"", ""},
+        {"application/json;", ""}}) {
+    EXPECT_EQ(refusal("POST /a HTTP/1.1\r\nHost: t\r\nContent-Length: 1\r\nContent-Type: " +
+                      std::string(type) + "\r\n\r\n"),
+              expected)
+        << type;
+  }
 }
 
 TEST(RequestHead, ASecondQuestionMarkBelongsToTheQuery) {

@@ -75,6 +75,38 @@ class Operation(unittest.TestCase):
         time.sleep(0.3)
         self.assertEqual(sorted(server.worker_pids()), sorted(workers))
 
+    def test_the_audit_log_names_who_was_refused(self):
+        tokens, audit = self.folder / "tokens.toml", self.folder / "audit.jsonl"
+        view, entry = self.token("view", "viewer")
+        tokens.write_text(entry)
+        server = self.serve("--tokens", str(tokens), "--audit", str(audit))
+        status, _, body = server.ask("POST", "/v1/predictions", {"terrain": "gale"}, view)
+        self.assertEqual(status, 403, body)
+        self.assertIn("view is a viewer", json.loads(body)["detail"])
+        self.assertEqual(server.ask("POST", "/v1/predictions", {"terrain": "gale"})[0], 401)
+        lines = [json.loads(line) for line in audit.read_text().splitlines()]
+        self.assertEqual([(line["who"], line["status"]) for line in lines], [("view", 403), ("loopback", 401)])
+        self.assertTrue(all("body_sha256" not in line for line in lines), "no body was read")
+
+    def test_a_stream_of_events_ends_with_its_token(self):
+        tokens = self.folder / "tokens.toml"
+        (ann, entry_of_ann), (bob, entry_of_bob) = self.token("ann"), self.token("bob")
+        tokens.write_text(entry_of_ann + entry_of_bob)
+        server = self.serve("--tokens", str(tokens), "--no-workers")
+        job = server.ask("POST", "/v1/plans", plan(), {**ASYNC, **ann})[1]["Location"]
+        streams = {}
+        for name, who in (("ann", ann), ("bob", bob)):
+            connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=60)
+            connection.request("GET", job + "/events", headers=who)
+            streams[name] = connection.getresponse()
+            self.assertTrue(streams[name].readline().startswith(b"id: "))
+        tokens.write_text(entry_of_ann)
+        server.process.send_signal(signal.SIGHUP)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/v1/jobs", headers=bob)[0] == 401, 10))
+        self.assertEqual(server.ask("DELETE", job, headers=ann)[0], 200)
+        self.assertIn(b'"dismissed"', streams["ann"].read())
+        self.assertNotIn(b'"dismissed"', streams["bob"].read(), "it ends before the next event")
+
     def refused_check(self, server, who):
         """The override's address of a check that says NO-GO."""
         status, headers, body = server.ask("POST", "/v1/checks", CHECK, {**ASYNC, **who})

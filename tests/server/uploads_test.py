@@ -16,6 +16,7 @@ import tempfile
 import time
 import unittest
 import zipfile
+from xml.etree import ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "contract"))
 from running_service import SLIPWAY, SOURCE, Server  # noqa: E402
@@ -222,6 +223,52 @@ class Uploads(unittest.TestCase):
         self.assertNotIn("site", self.names("terrains"))
         self.assertEqual(self.ask("/v1/predictions", request, 422)["faults"][0]["pointer"], "/terrain")
         self.assertEqual(self.server.ask("DELETE", "/v1/terrains/gale")[0], 403)
+
+    def test_no_name_of_a_system_makes_the_service_open_a_file(self):
+        elevation, legend = self.sent(ELEVATION.read_bytes(), "dem.tif"), self.sent(b"label,soil\n1,mars_dune\n", "legend.csv")
+        there = self.path / "definitions"
+        there.write_text("<1> +proj=eqc +R=3396190 +units=m <>\n")
+        request = {"name": "t", "elevation": elevation}
+        for text in (f"+init={there}:1", f"+init={there}.not:1", "+init=../../definitions:1", "+init=/dev/stdin:1", str(there),
+                     f"+proj=eqc +R=3396190 +nadgrids={there}", f"file://{there}", "https://example.org/crs.wkt",
+                     f'PROJCS["x",EXTENSION["PROJ4","+init={there}:1"]]'):
+            (pointer, message), = self.faults("/v1/terrains", {**request, "crs": text})
+            self.assertEqual(pointer, "/crs", text)
+            self.assertIn("+proj=eqc +R=3396190", message, "the remedy")
+        told = set()
+        for name in (f"+init={there}:1", f"+init={there}.not:1", "+init=/dev/stdin:1", "+init=../../definitions:1"):
+            units = {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": name}}, "features": []}
+            soil = self.sent(json.dumps(units).encode(), "units.geojson")
+            refused = self.ask("/v1/terrains", {**request, "soil": soil, "legend": legend}, 422)
+            told.add(json.dumps(refused["faults"]))
+        self.assertEqual(len(told), 1, "a file that exists is not told from one that does not")
+        self.assertNotIn("t", self.names("terrains"))
+        self.ask("/v1/terrains", {**request, "crs": "+proj=eqc +R=3396190 +units=m +no_defs", "gravity_m_s2": 3.71})
+
+    def test_a_cell_that_is_too_small_is_refused(self):
+        for size in ("1e-300", "1e-9"):
+            grid = f"ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize {size}\n" + "1 2 3\n" * 3
+            refused = self.ask("/v1/terrains", {"name": "tiny", "elevation": self.sent(grid.encode(), "tiny.asc"),
+                                                "crs": "+proj=eqc +R=3396190 +units=m"}, 422)
+            self.assertIn("must be at least 0.001 m", json.dumps(refused))
+            self.assertIn("gdal_translate -a_ullr", json.dumps(refused))
+
+    def test_a_title_is_text_in_every_picture(self):
+        title = '<script>alert(1)</script>"&amp;'
+        elevation = self.sent(ELEVATION.read_bytes(), "dem.tif")
+        extent = self.ask("/v1/terrains", {"name": "site", "title": title, "elevation": elevation})["extent"]
+        x, y = 0.5 * (extent["west_m"] + extent["east_m"]), 0.5 * (extent["south_m"] + extent["north_m"])
+        request = {"terrain": "site", "rover": "mer-class", "path": [{"x_m": x, "y_m": y}, {"x_m": x + 5, "y_m": y}]}
+        job = self.server.ask("POST", "/v1/checks", request, {"Prefer": "respond-async"})[1]["Location"]
+        self.assertEqual(self.server.end_of(job)["state"], "successful")
+        answers = {page: self.server.ask("GET", job + page) for page in ("/map", "/report")}
+        for page, (status, headers, body) in answers.items():
+            self.assertEqual(status, 200, page)
+            self.assertNotIn(b"<script", body, page)
+            self.assertIn("default-src 'none'", headers["Content-Security-Policy"], page)
+            self.assertEqual(headers["X-Content-Type-Options"], "nosniff", page)
+        texts = [e.text for e in ElementTree.fromstring(answers["/map"][2]).iter("{http://www.w3.org/2000/svg}text")]
+        self.assertIn(title, texts)
 
     def server_with_tokens(self):
         """The headers of two operators, a viewer and an administrator."""

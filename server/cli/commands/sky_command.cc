@@ -18,6 +18,7 @@
 #include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "api/place_sky.h"
+#include "api/requests/plan_request.h"
 #include "core/angle.h"
 #include "core/utc.h"
 #include "dem/horizon/horizon.h"
@@ -166,7 +167,7 @@ Result<void> look_into_kernels(const SkyOptions& options, Answer& answer) {
   const auto until = time_of("--until", options.until.value_or(""));
   if (!until) return fail(until.error());
   if (*until < answer.utc_ms) return fail(ErrorCode::kInvalidRequest, "--until is before --at");
-  auto moments = sky->table(place, answer.utc_ms, *until, *until, kMostMoments);
+  auto moments = sky->table(place, answer.utc_ms, *until, *until, api::RequestLimits::kSkyMoments);
   if (!moments) return fail(moments.error());
   answer.table = *std::move(moments);
   return {};

@@ -137,7 +137,8 @@ Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOpt
   if (!sky) return refused("--sky: " + sky.error().detail, sky.error().faults);
   auto moments =
       sky->table({rad_from_deg(degrees->x), rad_from_deg(degrees->y)}, times->from_ms, times->to_ms,
-                 times->to_ms + std::llround(3.6e6 * (kBehind_h + light_left_h(drive.day))), kMostMoments);
+                 times->to_ms + std::llround(3.6e6 * (kBehind_h + light_left_h(drive.day))),
+                 api::RequestLimits::kSkyMoments);
   if (!moments) return refused("--sky: " + moments.error().detail, moments.error().faults);
   drive.sky_of_kernels = *std::move(moments);
   return {};

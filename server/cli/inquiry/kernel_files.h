@@ -24,9 +24,6 @@ class KernelFiles {
   std::vector<std::string> names_, bytes_;
 };
 
-// Of a table that a request is to hold: it has a mebibyte at most.
-constexpr std::size_t kMostMoments = 4000;
-
 // Sun and Earth out of such files over "Mars" or "Moon". Errors: of KernelFiles::read(); of
 // steps::KernelSky::read().
 Result<steps::KernelSky> read_kernel_sky(const std::vector<std::string>& paths, std::string_view body);
