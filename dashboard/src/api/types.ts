@@ -3498,7 +3498,7 @@ export interface components {
                 /** Format: date-time */
                 to: string;
             }[];
-            /** @description The departure of the windows that keeps most in the battery; without windows the one that a halt makes keep the rules; null where none does */
+            /** @description The departure of the windows with most in the battery at the arrival, at the worse pace; without windows the one that a halt makes keep the rules and that arrives first; null where none does */
             best: components["schemas"]["DepartedDrive"] | null;
             /** @description That best needs; null where it needs none */
             halt: {
@@ -3688,7 +3688,7 @@ export interface components {
             checks: components["schemas"]["PlaceOnWay"][];
             /** @description Where the rover is at arrive_by at the slow pace; null where it is at the goal by then, or no arrive_by is asked */
             time_runs_out: components["schemas"]["PlaceOnWay"] | null;
-            /** @description Where most draws halt; null where none does */
+            /** @description Where most draws halt, are embedded or break a limit; null where none does */
             worst: components["schemas"]["PlaceOnWay"] | null;
             /** @description The check of the way from the worst place back to the start, driven backwards. With a departure of its own: when the rover is at that place at the slow pace, with what the battery then holds, under the same rules but for arrive_by */
             back_out: components["schemas"]["Check"] | null;
@@ -3844,7 +3844,7 @@ export interface components {
             soil?: string;
             /** @description Id of a CSV: value,label,soil and where known rock_share */
             legend?: string;
-            /** @description Stands for the map's own system: a PROJ string, WKT, or a code */
+            /** @description Stands for the map's own system: a code such as IAU_2015:49910, a PROJ string, WKT or PROJJSON, none of which may name a file or an address (+init, grids) */
             crs?: string;
             /** @description Of the polygons: which property is the label. Left out: unit */
             property?: string;
