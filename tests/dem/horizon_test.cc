@@ -122,6 +122,40 @@ TEST(HorizonSweep, IsTheHorizonOfEachPlace) {
   }
 }
 
+// Who only asks whether the horizon is above a sun hears the same as who asks how high it is; and ground that
+// is left out is passed over, but none beyond it.
+TEST(HorizonSweep, ThatIsEnoughSaysTheSameOfASun) {
+  const auto terrain = sampled(kGrid, hills);
+  const Extent middle{40.0, 40.0, 80.0, 90.0};
+  const HorizonSweep around(*terrain, kFlat, middle);
+  const GridGeometry cells{
+      .rows = 40, .columns = 35, .west_m = 41.0, .north_m = 89.0, .cell_x_m = 1.1, .cell_y_m = 1.2};
+  const Eyes eyes = eyes_over(*terrain, cells, 0.0);
+  const auto beyond = sampled(kGrid, hills, [&](int row, int column) {
+    const Eigen::Vector2d at = kGrid.centre_m({row, column});
+    return at.x() > middle.west_m && at.x() < middle.east_m && at.y() > middle.south_m &&
+           at.y() < middle.north_m;
+  });
+  const HorizonSweep missing(*beyond, kFlat);
+  constexpr float kNothing = -std::numeric_limits<float>::infinity();
+  constexpr double kSun = 0.12;
+  int dark = 0;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const double azimuth = k < 8 ? 0.25 * std::numbers::pi * static_cast<double>(k)
+                                 : 2.0 * std::numbers::pi * random_uniform(k, 4);
+    std::vector<float> whole(eyes.heights_m.size(), kNothing), enough = whole, same = whole;
+    around.raise(eyes, azimuth, 1, whole);
+    around.raise(eyes, azimuth, 1, enough, kSun);
+    missing.raise(eyes, azimuth, 1, same);
+    EXPECT_EQ(whole, same) << azimuth;
+    for (std::size_t cell = 0; cell < whole.size(); ++cell) {
+      EXPECT_EQ(whole[cell] >= kSun, enough[cell] >= kSun) << azimuth;
+      dark += whole[cell] >= kSun ? 1 : 0;
+    }
+  }
+  EXPECT_GT(dark, 1000);
+}
+
 // A picture may be asked for of a hundred thousand times the map; its lines begin on the map.
 TEST(HorizonSweep, PlacesOffTheMapLookNowhere) {
   const auto terrain = sampled(kGrid, hills);

@@ -74,6 +74,8 @@ TEST(Access, WhomItRefusesIsKnownFromTheHead) {
     EXPECT_TRUE((*access)->refuses("POST", "/v1/uploads", "Bearer nonsense"));
     EXPECT_FALSE((*access)->refuses("POST", "/v1/uploads", "bearer " + worker.token)) << "no rate is counted";
   }
+  EXPECT_EQ((*access)->name_of("GET", "/v1/jobs", "Bearer " + viewer.token), "wall");
+  EXPECT_EQ((*access)->name_of("GET", "/v1/jobs", "Bearer nonsense"), "") << "nobody makes names up";
 }
 
 TEST(Access, NoTokenIsInTheFile) {
