@@ -1,8 +1,12 @@
 // When a drive may begin, from the request to the answer.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -10,7 +14,9 @@
 #include "api/documents/departure.h"
 #include "api/files/terrain_site.h"
 #include "api/json/parse.h"
+#include "api/requests/plan_request.h"
 #include "core/angle.h"
+#include "core/utc.h"
 #include "yard_requests.h"
 
 namespace slipway::api {
@@ -49,6 +55,34 @@ TEST(DepartureRequest, ACheckHasItsWindowsAndTheRulesOfTheDay) {
   for (const json::JsonValue& rule : decision.find("rules")->elements)
     rules += rule.find("rule")->text == "sun" || rule.find("rule")->text == "charge" ? 1 : 0;
   EXPECT_EQ(rules, 2);
+}
+
+// A table of so many moments, one a minute, with as many digits as numbers have.
+std::string sky_of(std::size_t moments) {
+  constexpr std::int64_t kBegin_ms = 1'782'864'000'000;  // 2026-07-01
+  std::string rows;
+  for (std::size_t k = 0; k < moments; ++k)
+    rows += fmt::format(
+        R"({}{{"at":"{}","sun_azimuth_deg":123.45678901234567,"sun_elevation_deg":-12.345678901234567,)"
+        R"("earth_azimuth_deg":123.45678901234567,"earth_elevation_deg":-12.345678901234567}})",
+        k == 0 ? "" : ",", utc_text(kBegin_ms + 60'000 * static_cast<std::int64_t>(k)));
+  return R"("from":"2026-07-01T01:00:00Z","sky":[)" + rows + "]";
+}
+
+TEST(DepartureRequest, AsManyMomentsAsAreAllowedFitABodyAndAreTheDescriptions) {
+  constexpr std::size_t kMost = RequestLimits::kSkyMoments;
+  const std::string full = departing(sky_of(kMost));
+  EXPECT_LT(full.size(), RequestLimits::kBodyBytes);
+  const auto answer = kYard.checked(full);
+  EXPECT_TRUE(answer) << answer.error().detail;
+  const auto more = kYard.checked(departing(sky_of(kMost + 1)));
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().faults.front().pointer, "/departure/sky");
+  std::ifstream in(std::filesystem::path(SLIPWAY_DATA_FOLDER) / ".." / "api" / "openapi.json");
+  const std::string description((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::size_t sky = description.find("\"sky\": {\n      \"type\": \"array\",\n      \"minItems\": 2");
+  ASSERT_NE(sky, std::string::npos);
+  EXPECT_LT(description.find(fmt::format("\"maxItems\": {},", kMost), sky), sky + 120);
 }
 
 TEST(DepartureRequest, AtNightItIsANoGoWithTheReason) {
