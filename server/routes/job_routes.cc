@@ -14,6 +14,7 @@
 #include "api/job_kinds.h"
 #include "server/routes/job_answers.h"
 #include "server/routes/job_events.h"
+#include "server/routes/override_routes.h"
 #include "server/routes/query.h"
 #include "server/routes/request_headers.h"
 #include "server/routes/responses.h"
@@ -74,7 +75,9 @@ class JobRoutes {
     Query query(request, {"limit", "kind", "state"});
     const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
     const std::string kind = query.text("kind"), state = query.text("state");
-    if (!kind.empty() && api::find_kind(kinds_, kind) == nullptr) query.fault("kind", must_be_a_kind());
+    if (std::vector<std::string_view> known = listed_kinds();
+        !kind.empty() && std::find(known.begin(), known.end(), kind) == known.end())
+      query.fault("kind", fmt::format("must be one of {}", fmt::join(known, ", ")));
     if (!state.empty() && !api::job_state(state))
       query.fault("state", fmt::format("must be one of {}", fmt::join(api::job_state_names(), ", ")));
     if (const auto error = query.error()) return problem_response(*error, &request);
@@ -119,10 +122,10 @@ class JobRoutes {
   }
 
  private:
-  std::string must_be_a_kind() const {
-    std::vector<std::string_view> names;
+  std::vector<std::string_view> listed_kinds() const {
+    std::vector<std::string_view> names{kOverrideKind};
     for (const api::JobKind& kind : kinds_) names.push_back(kind.name);
-    return fmt::format("must be one of {}", fmt::join(names, ", "));
+    return names;
   }
 
   HttpResponse created(const api::Job& job) {

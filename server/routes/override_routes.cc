@@ -25,7 +25,6 @@
 namespace slipway::server {
 namespace {
 
-constexpr std::string_view kOverrideKind = "override";
 constexpr std::int64_t kConfirmWithin_ms = std::int64_t{10} * 60 * 1000;
 constexpr std::size_t kMaxUnconfirmed = 10'000, kMaxUnconfirmedOfOne = 20;
 constexpr std::size_t kMinReason = 10, kMaxReason = 2000;

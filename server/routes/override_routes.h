@@ -1,11 +1,14 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "api/jobs/job_store.h"
 #include "server/http/http_routes.h"
 
 namespace slipway::server {
+
+inline constexpr std::string_view kOverrideKind = "override";  // of what no worker does, see below
 
 // POST and GET of a check's override: who lets a drive go whose check says NO-GO or UNKNOWN, and why. It
 // takes two requests, the second with what the first one's answer gave for it, and from another person where
