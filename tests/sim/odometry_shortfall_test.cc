@@ -52,5 +52,19 @@ TEST(ShortfallFollower, TurnsInPlaceBringNoWay) {
   EXPECT_NEAR(follower.finish(false)[0], 0.0, 1e-6);
 }
 
+// A rover that turns by 80 deg beside its path comes no further aside than it drives, to either side.
+TEST(DriftFollower, ComesNoFurtherAsideThanItDrives) {
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<double> come_m{100.0};
+    DriftFollower follower(come_m);
+    for (int k = 0; k < 100; ++k) follower.add(1.0, sign * 0.1, sign * 0.014);
+    std::vector<float> drift_m, turned_rad;
+    follower.finish(drift_m, turned_rad);
+    EXPECT_GT(sign * drift_m[0], 50.0);
+    EXPECT_LT(sign * drift_m[0], 100.0);
+    EXPECT_NEAR(sign * turned_rad[0], 1.4, 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace slipway::sim
