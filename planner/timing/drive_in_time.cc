@@ -30,6 +30,13 @@ std::int64_t after(std::int64_t utc_ms, double seconds) {
   return utc_ms + std::llround(1000.0 * seconds);
 }
 
+// How much of a stretch is lit that the sun enters at one height over the ground's horizon and leaves at
+// another: of the straight line between them what lies over it.
+double lit_between(double one_rad, double other_rad) {
+  if ((one_rad > 0.0) == (other_rad > 0.0)) return one_rad > 0.0 ? 1.0 : 0.0;
+  return std::max(one_rad, other_rad) / std::abs(one_rad - other_rad);
+}
+
 }  // namespace
 
 Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_depth) {
@@ -173,6 +180,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     if (drive.max_temp_c) course.below_warmest_k.lower(*drive.max_temp_c - air_c - most_k, distance_m);
     return air_c + most_k;
   };
+  std::optional<double> over_before;  // the sun over the horizon, at the place before
   // `effort`: the motors' power over that on the mean soils; nothing where the rover stands.
   const auto spend = [&](const Place& place, double seconds, std::optional<double> effort) {
     const std::int64_t middle = after(now, 0.5 * seconds);
@@ -180,6 +188,8 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     const auto sun = departure_.sky->sun(middle);
     const double over = sun ? over_horizon_rad(place, *sun) : 0.0;
     const bool is_lit = sun && over > 0.0;
+    const double lit = sun ? lit_between(over_before.value_or(over), over) : 0.0;
+    over_before = over;
     course.sun_is_known &= sun.has_value();
     if (sun) course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
     if (departure_.rules.min_earth_rad) {
@@ -194,7 +204,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
       if (sun && supply_->has_array()) {
         Light light =
             light_of(sun->elevation_rad, departure_.sky->sun_distance_au(middle), departure_.optical_depth);
-        if (!is_lit) light.beam_w_m2 = 0.0;
+        light.beam_w_m2 *= lit;
         in_w += supply_->array_w(light.beam_w_m2, sky::towards(*sun).dot(place.up), light.diffuse_w_m2);
       }
       out_w = effort ? place.motors_w * *effort + supply_->driving_w : supply_->standing_w;
@@ -213,7 +223,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
       course.charge_known.lower(course.charge, distance_m);
     course.least_charge = std::min(course.least_charge, course.charge);
     course.total_s += seconds;
-    if (is_lit) course.lit_s += seconds;
+    course.lit_s += lit * seconds;
     std::optional<double> motor_c;
     if (asks_of_motors) {
       if (effort) look_at_motors(distance_m);
