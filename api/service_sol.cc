@@ -80,20 +80,22 @@ std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& dep
   const planner::TimedStation* last = &timed.stations.front();
   for (const planner::TimedStation& at : timed.stations)
     if (at.late_ms <= *rules.arrive_by) last = &at;
+  if (last == &timed.stations.back()) return std::nullopt;  // the sky is not known for as long
   return place_at(drive, last->distance_m,
                   fmt::format("here the rover is at the slow pace at {}", utc_text(*rules.arrive_by)));
 }
 
 // The day of a way that begins where a drive is at the slow pace, with what is then left in the battery. It
 // is held against the same rules but for the arrival: that is the goal's, and who turns back doesn't come
-// there.
-DepartureRequest day_from(const DepartureRequest& day, const planner::TimedDrive& drive, double at_m) {
+// there. Nothing where the sky's table ends before.
+std::optional<DepartureRequest> day_from(const DepartureRequest& day, const planner::TimedDrive& drive,
+                                         double at_m) {
   const auto station =
       std::find_if(drive.stations.begin(), drive.stations.end(),
                    [&](const planner::TimedStation& each) { return each.distance_m >= at_m - 1e-9; });
+  if (station == drive.stations.end()) return std::nullopt;
   DepartureRequest later = day;
   later.rules.arrive_by.reset();
-  if (station == drive.stations.end()) return later;
   later.from_ms = later.to_ms = station->late_ms;
   later.charge = std::clamp(station->charge_low, 0.0, 1.0);
   return later;
@@ -149,14 +151,21 @@ Result<SolAnswer> run_sol(const Service& service, const PlanRequest& request, Pr
         place_when_time_is_over(*route.decision.departures, request.drive.departure->rules, drive);
   if (!answer.worst) return answer;
   CheckRequest back = back_from(request, drive, *answer.worst);
-  if (route.decision.departures)
+  if (route.decision.departures) {
     back.drive.departure =
         day_from(*request.drive.departure, route.decision.departures->drive, answer.worst->at_m);
-  if (back.path.size() < 2) return answer;
+    if (!back.drive.departure) answer.no_way_back = "the table of the sky ends before the rover is there";
+  }
+  if (back.path.size() < 2) answer.no_way_back = "the worst place is at the start";
+  if (!answer.no_way_back.empty()) return answer;
   planner::StageProgress backing(progress, "backing out of the worst place", kPlanned, 1.0);
   auto back_out = run_check(service, back, backing);
-  if (!back_out) return fail(back_out.error());
-  answer.back_out = std::move(*back_out);
+  if (progress.cancelled() || (!back_out && back_out.error().code == ErrorCode::kCancelled))
+    return fail(ErrorCode::kCancelled, "the sol was cancelled");
+  if (back_out)
+    answer.back_out = std::move(*back_out);
+  else
+    answer.no_way_back = back_out.error().detail;
   return answer;
 }
 

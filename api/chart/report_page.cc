@@ -29,7 +29,7 @@ figure{margin:1.2rem 0;overflow-x:auto}
 figcaption{font-size:.9rem;color:#555}
 svg{display:block;max-width:100%;height:auto}
 summary{cursor:pointer}
-code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
+code{font-size:.92em;overflow-wrap:anywhere;background:#f0f0ee;padding:0 .2em}
 .banner{font-size:2.6rem;font-weight:700;line-height:1.1;margin:0 0 .8rem;padding:.5rem 1rem;border-radius:6px;color:#fff;max-width:none}
 .good{background:#1a7f37}.bad{background:#b3261e}.open{background:#8a5a00}
 @media screen and (prefers-color-scheme:dark){body{background:#111;color:#ddd}main{background:#1b1b1b}

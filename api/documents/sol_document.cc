@@ -41,6 +41,7 @@ std::string write_sol(const SolAnswer& answer) {
     w.raw(write_check_answer(*answer.back_out));
   else
     w.null();
+  if (!answer.no_way_back.empty()) w.text("no_way_back", answer.no_way_back);
   w.key("plan").raw(write_plan_answer(answer.plan));
   w.end_object();
   return w.take();

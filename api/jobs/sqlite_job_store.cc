@@ -42,7 +42,9 @@ class DiskReserve {
   }
   // Where a part has been given and there may be room again.
   void keep_again() {
-    if (!is_whole_) keep();
+    if (is_whole_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);  // a reader does not wait for a disk
+    if (lock) fill();
   }
   // The answer of `work`, for which a part more is given while it is `is_short` of room.
   template <class Work, class IsShort>

@@ -101,10 +101,11 @@ struct DayClock {
 };
 
 DayClock clock_at_start(const Catalogue& catalogue, const JsonValue& sol, const JsonValue& request) {
-  const auto site = catalogue.terrains.find(text(sol, "terrain"));
-  if (site == catalogue.terrains.end() || site->second->info().body != "Mars") return {};
+  const auto site =
+      terrain_at(catalogue, text(sol, "terrain"), text(at(at(sol, "plan"), "provenance"), "terrain_version"));
+  if (!site || (*site)->info().body != "Mars") return {};
   const JsonValue& start = at(request, "start");
-  const auto degrees = site->second->degrees_at({number(start, "x_m"), number(start, "y_m")});
+  const auto degrees = (*site)->degrees_at({number(start, "x_m"), number(start, "y_m")});
   if (!degrees) return {};
   return {rad_from_deg(degrees->x)};
 }
@@ -124,7 +125,7 @@ void add_day(ReportPage& page, const JsonValue& departures, const JsonValue& ask
       "{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
       "{:.0f} % of the time. The battery holds {:.1f} % at the departure and {:.1f} % at the "
       "arrival ({:.1f} % at the worse pace): {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh spilled.{}",
-      has(departures, "best") ? "Best at" : "No departure keeps the rules of the day; nearest is",
+      has(departures, "best") ? "Best at" : "Nearest to keeping the rules of the day is",
       clock.words(text(drive, "departs")), clock.words(text(drive, "arrives")),
       clock.words(text(drive, "arrives_late")), 100.0 * number(drive, "lit_share"),
       number(asked, "charge_percent"), number(drive, "charge_percent"), number(drive, "charge_low_percent"),
@@ -160,7 +161,7 @@ void add_start(ReportPage& page, const JsonValue& decision) {
             fmt::format("{:.0f}", number(starts, "no_go"))});
 }
 
-void add_places(ReportPage& page, const JsonValue& sol) {
+void add_places(ReportPage& page, const JsonValue& sol, const DayClock& clock) {
   page.section("Where to check the slip");
   if (at(sol, "checks").elements.empty()) page.paragraph("On no stretch is a halt likely enough.");
   for (const JsonValue& check : at(sol, "checks").elements)
@@ -175,14 +176,15 @@ void add_places(ReportPage& page, const JsonValue& sol) {
   else
     page.paragraph("No draw of the ground halts the rover.");
   if (!has(sol, "back_out")) {
-    if (has(sol, "worst")) page.paragraph("It is so near the start that no way back was checked.");
+    if (has(sol, "no_way_back"))
+      page.paragraph(fmt::format("No way back was checked: {}.", text(sol, "no_way_back")));
     return;
   }
   const JsonValue& back = at(sol, "back_out");
   const JsonValue& request = at(back, "request");
   const std::string begun = has(request, "departure")
                                 ? fmt::format(", begun at the slow pace at {} with {:.0f} % in the battery,",
-                                              text(at(request, "departure"), "from"),
+                                              clock.words(text(at(request, "departure"), "from")),
                                               number(at(request, "departure"), "charge_percent"))
                                 : std::string();
   page.paragraph(
@@ -231,11 +233,11 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
   json::Writer w;
   json::write_value(w, plan);
   add_map(page, draw_route_map(catalogue, w.take()), "The routes of the plan, by slip");
+  const DayClock clock = clock_at_start(catalogue, *sol, at(plan, "request"));
   if (has(decision, "departures"))
-    add_day(page, at(decision, "departures"), at(at(plan, "request"), "departure"),
-            clock_at_start(catalogue, *sol, at(plan, "request")));
+    add_day(page, at(decision, "departures"), at(at(plan, "request"), "departure"), clock);
   add_start(page, decision);
-  add_places(page, *sol);
+  add_places(page, *sol, clock);
   add_commands(page, route);
   add_provenance(page, plan);
   return page.html();

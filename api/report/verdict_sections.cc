@@ -48,9 +48,8 @@ std::string_view without_advice(const JsonValue& decision) {
   if (hangs_on_start(decision))
     return "knowing better where the rover stands and how it is turned, before it drives";
   if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
-    return "another time or more charge: no departure that was asked for keeps the rules of the day, nor "
-           "does a "
-           "shorter drive";
+    return "another time, more charge or a longer table of the sky: of no departure that was asked for is it "
+           "known that it keeps the rules of the day, nor of a shorter drive";
   return "another way or another goal; no shorter drive and no scout drive does";
 }
 

@@ -23,6 +23,7 @@ struct SolAnswer {
   std::optional<PlaceOnWay> time_runs_out;  // at the slow pace; nothing where the rover is then at the goal
   std::optional<PlaceOnWay> worst;          // where most draws halt; nothing where none does
   std::optional<CheckAnswer> back_out;      // from there back to the start, as it came
+  std::string no_way_back;                  // why there is a worst place and no `back_out`
 };
 
 }  // namespace slipway::api

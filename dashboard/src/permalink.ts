@@ -122,6 +122,7 @@ export function readLink(hash: string): Link {
     unknownSoil: q.get("unknown") ?? "",
     draws: Number(q.get("draws")) || null,
     departure: Object.fromEntries((q.get("when") ?? "").split(",").map((pair) => pair.split("=")).filter((pair) => pair.length === 2)),
+    startError: null, // as the sky
     sky: null, // too long for an address; that of the job comes with it
   };
   const tab = (["plan", "check", "jobs", "drives"] as Tab[]).find((t) => t === q.get("tab")) ?? "plan";

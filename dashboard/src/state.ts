@@ -42,6 +42,7 @@ export interface Options {
   draws: number | null; // of the ground; null: as many as the verdict needs
   departure: Departure; // what is asked of the day
   sky: SkyTable | null; // that the opened request brought
+  startError: PlanRequest["start_error"] | null; // the same
 }
 
 /** Sun and Earth over the start, as a request has them: kept and sent again as they are, on the same terrain. */
@@ -146,7 +147,7 @@ class Store {
     followed: nothingFollowed,
     terrain: null,
     drawn: nothingDrawn,
-    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null, departure: {}, sky: null },
+    options: { rover: "", rules: "", legend: "", limits: {}, weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null, departure: {}, sky: null, startError: null },
     tool: "look",
     layers: { slope: 0, soil: 0, unknown: 0.6 },
     swipe: null,

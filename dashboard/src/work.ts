@@ -26,6 +26,7 @@ function takeRequest({ request, rover: driven }: Result): void {
       draws: asked.draws ?? null,
       departure: formOf(asked.departure),
       sky: skyOf({ terrain: asked.terrain ?? "", departure: asked.departure }),
+      startError: asked.start_error ?? null,
       legend: asked.legend ?? options.legend,
       routes: asked.routes ?? options.routes,
       seed: asked.seed ?? options.seed,

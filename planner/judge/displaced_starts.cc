@@ -132,7 +132,9 @@ void judge_starts(const DisplacedStarts& starts, const sim::OutcomeBars& bars, D
   rule.value = rule.low = rule.high = 1.0 - static_cast<double>(starts.count(Verdict::kGo)) / all;
   rule.go_below = 1.0 / all;
   rule.no_go_above = std::max(rule.go_below, bars.no_go_stop);
-  if (rule.value > 0.0) rule.verdict = rule.value > rule.no_go_above ? Verdict::kNoGo : Verdict::kUnknown;
+  // What is not known from a start is open, from however many of them.
+  const double broken = static_cast<double>(starts.count(Verdict::kNoGo)) / all;
+  if (rule.value > 0.0) rule.verdict = broken > rule.no_go_above ? Verdict::kNoGo : Verdict::kUnknown;
   rule.words = words_of(starts);
   const bool decides = severity(rule.verdict) > severity(verdict.verdict);
   verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), rule.words);

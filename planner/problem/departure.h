@@ -32,7 +32,8 @@ struct Departure {
   double charge = 1.0;         // of the battery at the departure, share of what it holds
   double optical_depth = 0.0;  // of the atmosphere
   std::optional<AirTemperature> air = {};
-  std::int64_t noon_ms = 0;  // when the sun stands highest, of any day; where there is air
+  std::int64_t noon_ms = 0;   // when the sun stands highest, of any day; where there is air
+  bool noon_is_known = true;  // otherwise what hangs on the hour's air is open
   DepartureRules rules;
   std::shared_ptr<const sky::Sky> sky;
   std::shared_ptr<const dem::Horizon> horizon;

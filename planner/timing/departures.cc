@@ -43,19 +43,26 @@ bool lacks_charge_alone(const TimedDrive& drive) {
          });
 }
 
-// When the sun stands highest, of the day that begins with the first departure.
-std::int64_t noon_of(const Departure& departure) {
+// When the sun stands highest, of a day about the first departure that the sky knows; nothing where it knows
+// none.
+std::optional<std::int64_t> noon_of(const Departure& departure) {
   constexpr int kLooks = 288;
-  std::int64_t noon = departure.from_ms;
-  double highest = -2.0;
-  for (int k = 0; k < kLooks; ++k) {
-    const std::int64_t at = departure.from_ms + std::llround(1000.0 * departure.day_s * k / kLooks);
-    const auto sun = departure.sky->sun(at);
-    if (!sun || sun->elevation_rad <= highest) continue;
-    highest = sun->elevation_rad;
-    noon = at;
+  for (const double begin : {0.0, -0.5, -1.0}) {
+    std::int64_t noon = 0;
+    double highest = -2.0;
+    bool is_known = true;
+    for (int k = 0; is_known && k < kLooks; ++k) {
+      const std::int64_t at = departure.from_ms + std::llround(1000.0 * departure.day_s *
+                                                               (begin + static_cast<double>(k) / kLooks));
+      const auto sun = departure.sky->sun(at);
+      is_known = sun.has_value();
+      if (!sun || sun->elevation_rad <= highest) continue;
+      highest = sun->elevation_rad;
+      noon = at;
+    }
+    if (is_known) return noon;
   }
-  return noon;
+  return std::nullopt;
 }
 
 // The moment nearest to `bad` at which the rules hold.
@@ -109,7 +116,11 @@ DepartureWindow to_the_minute(const DepartureWindow& window) {
 Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, Progress& progress) {
   Departure at_hand = departure;
-  if (departure.air) at_hand.noon_ms = noon_of(departure);
+  if (departure.air) {
+    const auto noon = noon_of(departure);
+    at_hand.noon_is_known = noon.has_value();
+    at_hand.noon_ms = noon.value_or(departure.from_ms);
+  }
   if (!departure.sky->is_table()) {
     const double longest_s =
         std::min(kLongest_s, 4.0 * prediction.duration_s + 3600.0 * (kHaltHours.back() + 24.0) +
@@ -164,12 +175,13 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
   for (const JudgedRule& rule : drive.rules)
     if (rule.verdict != Verdict::kGo) why.push_back(rule.words);
   if (!departures.is_kept() && !why.empty()) {
-    const bool is_open = broken(drive).first == severity(Verdict::kUnknown);
+    const int worst = broken(drive).first;
+    const bool is_open = worst == severity(Verdict::kUnknown);
     std::string words =
         fmt::format("no departure {} the rules of the day; at {} {}", is_open ? "is known to keep" : "keeps",
                     utc_text(drive.departs_ms), why.front());
     for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
-    const bool decides = severity(Verdict::kNoGo) > severity(verdict.verdict);
+    const bool decides = worst > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (departures.halt) {
     std::string words = fmt::format(

@@ -167,8 +167,12 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
   Course course;
   course.charge = departure_.charge;
   course.charge_known.limit = departure_.rules.min_charge.value_or(0.0);
-  course.sun_rad.limit = departure_.rules.min_sun_rad.value_or(kHidden_rad);
-  course.earth_rad.limit = departure_.rules.min_earth_rad.value_or(kHidden_rad);
+  // What is hidden is below every limit.
+  const auto limit_of = [](const std::optional<double>& least_rad) {
+    return std::max(least_rad.value_or(kHidden_rad), kHidden_rad + 1e-9);
+  };
+  course.sun_rad.limit = limit_of(departure_.rules.min_sun_rad);
+  course.earth_rad.limit = limit_of(departure_.rules.min_earth_rad);
   std::int64_t now = departs_ms;
   // Of the motor that loses most and of the one that loses least, over what follows the air alone.
   double most_k = 0.0, least_k = 0.0;
@@ -325,36 +329,48 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
                           100.0 * known.limit, *known.broken_m, 100.0 * low));
   }
   if (motor_) {
-    const auto motors = [&](const char* name, double sign, std::optional<double> limit_c,
+    const auto motors = [&](const char* name, const char* which, double sign, std::optional<double> limit_c,
                             const Course::Least& a, const Course::Least& b) {
       if (!limit_c) return;
       const Course::Least& least = a.value < b.value ? a : b;
-      add(name, true, a.value, least.value, 0.0, "K", least.at_m,
-          fmt::format("the {} drive motor has {:.0f} degC, at the worse pace {:.0f} degC at {:.1f} m, limit "
-                      "{:.0f} degC",
-                      sign > 0.0 ? "coldest" : "hottest", *limit_c + sign * a.value,
-                      *limit_c + sign * least.value, least.at_m, *limit_c));
+      const double worst_c = *limit_c + sign * least.value;
+      add(name, departure_.noon_is_known, a.value, least.value, 0.0, "K", least.broken_m.value_or(least.at_m),
+          least.broken_m
+              ? fmt::format("the {} drive motor {} the limit of {:g} degC at {:.1f} m, to {:.0f} degC", which,
+                            sign > 0.0 ? "falls below" : "rises above", *limit_c, *least.broken_m, worst_c)
+              : fmt::format(
+                    "the {} drive motor comes to {:.0f} degC, at the worse pace to {:.0f} degC, limit "
+                    "{:g} degC",
+                    which, *limit_c + sign * a.value, worst_c, *limit_c));
     };
-    motors("motor_cold", 1.0, rover_.drive.min_temp_c, usual.over_coldest_k, slow.over_coldest_k);
-    motors("motor_hot", -1.0, rover_.drive.max_temp_c, usual.below_warmest_k, slow.below_warmest_k);
+    motors("motor_cold", "coldest", 1.0, rover_.drive.min_temp_c, usual.over_coldest_k, slow.over_coldest_k);
+    motors("motor_hot", "hottest", -1.0, rover_.drive.max_temp_c, usual.below_warmest_k,
+           slow.below_warmest_k);
   }
   const auto in_sight = [&](const char* name, const char* what, bool is_known, const Course::Least& a,
-                            const Course::Least& b, double limit_rad) {
+                            const Course::Least& b) {
     const Course::Least& least = a.value < b.value ? a : b;
-    const bool hidden = least.value <= kHidden_rad;
-    // What is hidden is below every limit.
-    const double limit_deg = std::max(deg_from_rad(limit_rad), -90.0 + 1e-9);
-    add(name, is_known, deg_from_rad(a.value), deg_from_rad(least.value), limit_deg, "deg",
-        least.broken_m.value_or(least.at_m),
-        hidden ? fmt::format("{} is not in sight at {:.1f} m", what, least.broken_m.value_or(least.at_m))
-               : fmt::format("{} stands {:.2f} deg high at {:.1f} m, limit {:.2f} deg", what,
-                             deg_from_rad(least.value), least.at_m, limit_deg));
+    const double limit_deg = deg_from_rad(least.limit), lowest_deg = deg_from_rad(least.value);
+    const bool is_hidden = least.value <= kHidden_rad;
+    const double first_m = least.broken_m.value_or(least.at_m);
+    std::string words =
+        !least.broken_m
+            ? fmt::format("{} stands {:.2f} deg high or more, limit {:.2f} deg", what, lowest_deg, limit_deg)
+        : !is_hidden ? fmt::format(
+                           "{} falls below the limit of {:.2f} deg at {:.1f} m, to {:.2f} deg at its "
+                           "lowest",
+                           what, limit_deg, first_m, lowest_deg)
+        : least.at_m > first_m
+            ? fmt::format(
+                  "{} falls below the limit of {:.2f} deg at {:.1f} m, and is not in sight at {:.1f} m", what,
+                  limit_deg, first_m, least.at_m)
+            : fmt::format("{} is not in sight at {:.1f} m", what, first_m);
+    add(name, is_known, deg_from_rad(a.value), lowest_deg, limit_deg, "deg", first_m, std::move(words));
   };
-  if (rules.min_sun_rad)
-    in_sight("sun", "the sun", sun_is_known, usual.sun_rad, slow.sun_rad, *rules.min_sun_rad);
+  if (rules.min_sun_rad) in_sight("sun", "the sun", sun_is_known, usual.sun_rad, slow.sun_rad);
   if (rules.min_earth_rad)
     in_sight("earth", "the Earth", usual.earth_is_known && slow.earth_is_known, usual.earth_rad,
-             slow.earth_rad, *rules.min_earth_rad);
+             slow.earth_rad);
   if (rules.light_left_s) {
     const double enough = *rules.light_left_s;
     const auto at_usual = light_left_s(usual.arrives_ms, enough),
@@ -382,6 +398,8 @@ TimedDrive DriveInTime::at(std::int64_t departs_ms, bool keep_stations,
   std::vector<TimedStation> at_slow_pace;
   const Course usual = run(departs_ms, usual_, halt, keep_stations ? &drive.stations : nullptr);
   const Course slow = run(departs_ms, slow_, halt, keep_stations ? &at_slow_pace : nullptr);
+  // The later of the two may come to where the sky is not known sooner.
+  drive.stations.resize(std::min(drive.stations.size(), at_slow_pace.size()));
   for (std::size_t k = 0; k < drive.stations.size(); ++k) {
     drive.stations[k].charge_low = std::min(drive.stations[k].charge, at_slow_pace[k].charge);
     drive.stations[k].late_ms = at_slow_pace[k].utc_ms;

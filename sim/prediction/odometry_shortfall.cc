@@ -37,7 +37,7 @@ std::vector<float> ShortfallFollower::finish(bool stuck) {
 
 void DriftFollower::add(double way_m, double side_slip_rad, double turned_rad) {
   turned_rad_ += turned_rad;
-  drift_m_ += way_m * std::sin(side_slip_rad + turned_rad_);
+  drift_m_ += way_m * (std::sin(turned_rad_) + std::tan(side_slip_rad) * std::cos(turned_rad_));
   come_m_ += way_m;
   while (drifts_m_.size() < wanted_m_.size() && wanted_m_[drifts_m_.size()] <= come_m_ + 1e-9) {
     drifts_m_.push_back(static_cast<float>(drift_m_));

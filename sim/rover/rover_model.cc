@@ -218,6 +218,12 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
   check_fields(motor_fields(), rover.drive, "/drive", faults.all());
   if (rover.drive.min_temp_c > rover.drive.max_temp_c && rover.drive.max_temp_c)
     faults.add("/drive/min_temp_c", "min_temp_c is above max_temp_c");
+  const DriveMotor& drive = rover.drive;
+  if (drive.thermal_resistance_k_w.has_value() != drive.thermal_time_constant_s.has_value() ||
+      ((drive.min_temp_c || drive.max_temp_c) && !drive.thermal_resistance_k_w))
+    faults.add("/drive",
+               "a motor's temperature, and so its limits, needs both thermal_resistance_k_w and "
+               "thermal_time_constant_s");
   if (rover.steering) check_fields(motor_fields(), *rover.steering, "/steering", faults.all());
   check_fields(body_fields(), rover, "", faults.all());
   faults.require_in("/roll_bias_deg", "roll_bias_rad", rover.roll_bias_rad, -0.5, 0.5);

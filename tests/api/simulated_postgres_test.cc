@@ -167,6 +167,7 @@ class ServerWorld final : public testing::SimulatedWorld {
     server_port_ = std::stoi(found[1]);
   }
   int begin_process() override {
+    const std::lock_guard lock(mutex_);
     wires_.try_emplace(++last_, server_port_, [this] { return befalls(); });
     return last_;
   }
@@ -207,10 +208,10 @@ class ServerWorld final : public testing::SimulatedWorld {
 
   std::string address_;
   int server_port_ = 0, last_ = 0;
-  std::map<int, Wire> wires_;
   std::mutex mutex_;
   Mishap armed_ = Mishap::kNone;
   int requests_left_ = 0;
+  std::map<int, Wire> wires_;  // the last: their threads use what stands before
 };
 
 // SLIPWAY_SEEDS="FIRST COUNT" runs others.

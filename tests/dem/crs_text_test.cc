@@ -67,11 +67,16 @@ TEST(CrsText, WhatNamesAFileOrAnAddressIsRefused) {
         R"(PROJCS["x",EXTENSION["PROJ4","+init=/etc/passwd:1"]])",
         R"(BOUNDCRS[SOURCECRS[],TARGETCRS[],ABRIDGEDTRANSFORMATION["t",PARAMETERFILE["f","/etc/passwd"]]])",
         R"(PROJCRS["x",CONVERSION["c",METHOD["PROJ longlat init=/etc/passwd:1"]]])",
-        R"({"type":"BoundCRS"})"}) {
+        R"({"type":"BoundCRS"})",
+        R"({"type":"\u0042oundCRS"})"}) {
     const auto fault = fault_of_crs_text(text);
     ASSERT_TRUE(fault) << text;
     EXPECT_FALSE(named_crs(text)) << text;
   }
+  for (const std::string before : {"EPSG:", "", "+proj=", "{", "GEOGCS["})
+    static_cast<void>(fault_of_crs_text(before + std::string(1'000'000, 'A')));  // ends
+  EXPECT_TRUE(fault_of_crs_text("EPSG:" + std::string(1'000'000, 'A')));
+  EXPECT_FALSE(fault_of_crs_text(R"(PROJCS["the extension of the map"])"));
   EXPECT_NE(fault_of_crs_text("+init=/x:1")->find("+proj=eqc +R=3396190"), std::string::npos) << "no remedy";
 }
 

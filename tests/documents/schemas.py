@@ -30,7 +30,7 @@ BEYOND = re.compile(
     "there is no file|unknown (soil|rover|terrain|effect|parameter)|another legend has this name|must be the (file's name|name of its)"
     "|is another wheel's|positive on the left|height_m = [\\d.]+, must be in|com_m lies outside|leave the body|one moment is above"
     "|no wheel on the|rocker must carry wheels|is switched on twice|must be a whole number up to|is not positive"
-    "|is given twice|is above max_temp_c|log-normal|contradict|another quantity|c1 and c2 (are|do not)|add up to 1|as many values|must rise|span the level"
+    "|is given twice|is above max_temp_c|needs both thermal_|log-normal|contradict|another quantity|c1 and c2 (are|do not)|add up to 1|as many values|must rise|span the level"
     "|weights of pressure|either all alternatives|in_patches is for|patches_spread is for|must be at least max_stop"
     "|k_c / b \\+ k_phi|there is no drive of this id|is the drive itself|is no class"
     "|/parameters/\\S+ \\S+ = \\S+ must be in")

@@ -261,6 +261,11 @@ TEST(Departures, WhereTheTableEndsOnTheWayWhatIsKnownDecides) {
   EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kGo) << found.drive.rules[0].words;
   EXPECT_EQ(found.drive.rules[1].verdict, Verdict::kNoGo) << found.drive.rules[1].words;
   EXPECT_LT(found.drive.stations.size(), 60U) << "nothing is told of where the sun is not known";
+  for (const TimedStation& at : found.drive.stations) {
+    EXPECT_GE(at.late_ms, at.utc_ms);
+    EXPECT_LE(at.late_ms, kHour_ms);
+    EXPECT_LE(at.charge_low, at.charge);
+  }
   departure.rules.min_charge = 0.9;
   found = departures_of(departure, rover, prediction, progress);
   EXPECT_EQ(found.drive.rules[0].verdict, Verdict::kNoGo) << "in the first hour already";

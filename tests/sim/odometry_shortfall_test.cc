@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace slipway::sim {
 namespace {
 
@@ -64,6 +67,16 @@ TEST(DriftFollower, ComesNoFurtherAsideThanItDrives) {
     EXPECT_LT(sign * drift_m[0], 100.0);
     EXPECT_NEAR(sign * turned_rad[0], 1.4, 1e-5);
   }
+}
+
+// Side slip is the angle to the way along: without a turn the way aside is its tangent.
+TEST(DriftFollower, FollowsTheSideSlip) {
+  const std::vector<double> come_m{10.0};
+  DriftFollower follower(come_m);
+  follower.add(10.0, 0.5, 0.0);
+  std::vector<float> drift_m, turned_rad;
+  follower.finish(drift_m, turned_rad);
+  EXPECT_NEAR(drift_m[0], 10.0 * std::tan(0.5), 1e-5);
 }
 
 }  // namespace

@@ -3692,6 +3692,8 @@ export interface components {
             worst: components["schemas"]["PlaceOnWay"] | null;
             /** @description The check of the way from the worst place back to the start, driven backwards. With a departure of its own: when the rover is at that place at the slow pace, with what the battery then holds, under the same rules but for arrive_by */
             back_out: components["schemas"]["Check"] | null;
+            /** @description Why the way back from the worst place was not checked; absent where it was, and without such a place */
+            no_way_back?: string;
             plan: components["schemas"]["Plan"];
         };
         Check: {

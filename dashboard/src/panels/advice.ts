@@ -46,7 +46,7 @@ export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLE
     ...(verdict === "go" ? [] : [
       h("h3", {}, "What would change it"),
       advice.length > 0 ? h("ul", { class: "advice" }, advice.map((a) => h("li", {}, `${sentence(a.words)}.`, act(result, a, show)))) : h("p", { class: "advice" }, departures && !departures.best
-        ? "Another time or more charge: no departure that was asked for keeps the rules of the day, nor does a shorter drive."
+        ? "Another time, more charge or a longer table of the sky: of no departure that was asked for is it known that it keeps the rules of the day, nor of a shorter drive."
         : "No shorter drive, other route or scout drive was found to: another way or goal."),
     ]),
   ];

@@ -47,6 +47,8 @@ export function departureFields(state: State, id: string, change: (departure: De
   return [
     table && h("p", { class: "hint", "data-sky-table": true }, "Sun and Earth come from the table of the request that was opened, which is sent again as it is. ",
       state.terrain?.terrain?.body === "Mars" ? button("Compute them instead", () => store.option({ sky: null }), { class: "quiet", "data-do": "no-sky-table" }) : null),
+    state.options.startError ? h("p", { class: "hint" }, `The start of a plan may be wrong by ${state.options.startError.position_m ?? 0} m and ${state.options.startError.heading_deg ?? 0}° (1 sigma), as in the request that was opened. `,
+      button("Take it as it is", () => store.option({ startError: null }), { class: "quiet" })) : null,
     time("from", "From (UTC)"),
     time("to", "To (UTC)"),
     sol && button("The sol on the map", () => store.option({ departure: { ...store.state.options.departure, from: minute(sol.from_ms), to: minute(sol.to_ms) } }), { class: "quiet", "data-do": "this-sol" }),

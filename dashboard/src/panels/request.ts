@@ -79,6 +79,7 @@ export function planDraft(state: State = store.state): Omit<PlanRequest, "goal">
     ...weights(state),
     ...draws(state),
     ...(options.routes !== 3 ? { routes: options.routes } : {}),
+    ...(options.startError ? { start_error: options.startError } : {}),
     ...departureOf(state),
     ...rulesOf(state),
   };

@@ -120,7 +120,7 @@ Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOpt
     return fail(ErrorCode::kInvalidRequest, std::move(why), std::move(faults));
   };
   if (start == nullptr)
-    return refused("a sky of kernels is made over the place where the drive starts: give --start");
+    return refused("a sky of kernels is made over the place where the drive starts: give --start, or --path");
   const auto times = time_span("--depart", *drive.depart);
   if (!times) return fail(times.error());
   const auto service = inquiry(ask);
