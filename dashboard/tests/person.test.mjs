@@ -203,6 +203,7 @@ test("1920, keyboard: places, cursor, why, limits; G stays G", async () => {
   // The effects have a sentence each, places may be degrees, and nothing is a raw name.
   await p.click("text=Effects and failed wheels");
   const effects = (await (await p.request.get(`${service.url}/v1/effects`)).json()).effects;
+  await p.waitForSelector("#panel-plan .effect .hint");
   const sentences = await p.locator("#panel-plan .effect .hint").allTextContents();
   assert.equal(sentences.length, effects.length);
   assert.ok(effects.length >= 23 && sentences.every((text) => /^[A-Z].{20,}\.$/.test(text)), sentences.join("\n"));
