@@ -176,7 +176,7 @@ class ServerWorld final : public testing::SimulatedWorld {
     const std::string address = std::regex_replace(address_, std::regex("127\\.0\\.0\\.1:[0-9]+"),
                                                    place + std::to_string(wires_.at(process).port()));
     // Some try again what was lost, and some have no time to. A call of the dead takes all of it.
-    const std::chrono::milliseconds deadline(is_service ? 1500 : process % 2 == 0 ? 500 : 40);
+    const std::chrono::milliseconds deadline(is_service ? 3000 : process % 2 == 0 ? 500 : 40);
     return open_postgres_job_store(address, {.deadline = deadline});
   }
   void arm(int mishap, int after) override {
@@ -216,7 +216,7 @@ class ServerWorld final : public testing::SimulatedWorld {
 
 // SLIPWAY_SEEDS="FIRST COUNT" runs others.
 TEST(SimulatedPostgresStore, KeepsItsPromisesWhateverHappens) {
-  std::uint64_t first = 0, count = 16;
+  std::uint64_t first = 0, count = 10;
   if (const char* const given = std::getenv("SLIPWAY_SEEDS")) std::istringstream(given) >> first >> count;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const auto schema = testing::PostgresSchema::make();
