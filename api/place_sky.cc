@@ -30,12 +30,12 @@ std::int64_t midnight_near(double utc_ms, double east_longitude_rad) {
   return std::llround(utc_ms);
 }
 
+}  // namespace
+
 void write_bearing(json::Writer& w, std::string_view key, const sky::Bearing& bearing) {
   w.key(key).begin_object().significant("azimuth_deg", deg_from_rad(bearing.azimuth_rad));
   w.significant("elevation_deg", deg_from_rad(bearing.elevation_rad)).end_object();
 }
-
-}  // namespace
 
 SkyMoment sky_moment(std::int64_t utc_ms, const dem::MapPlace& degrees, double map_north_rad) {
   const double east = rad_from_deg(degrees.x), north = rad_from_deg(degrees.y);

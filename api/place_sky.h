@@ -24,6 +24,7 @@ struct SkyMoment {
 
 // Over a place in degrees. Azimuths count from a north that stands `map_north_rad` clockwise of the true one.
 SkyMoment sky_moment(std::int64_t utc_ms, const dem::MapPlace& degrees, double map_north_rad = 0.0);
+void write_bearing(json::Writer& w, std::string_view key, const sky::Bearing& bearing);
 // Its keys after "at", into an object that is open.
 void write_sky_moment(json::Writer& w, const SkyMoment& moment);
 

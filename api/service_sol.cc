@@ -7,6 +7,7 @@
 
 #include "api/service_drives.h"
 #include "core/utc.h"
+#include "planner/judge/route_stations.h"
 #include "planner/problem/departure.h"
 #include "planner/search/stage_progress.h"
 
@@ -18,12 +19,8 @@ constexpr double kLikelyEnough = 0.005;  // a halt on a stretch
 constexpr double kCorner_m = 1.0;        // between corners of the way back, at least
 
 PlaceOnWay place_at(const sim::DrivePrediction& drive, double at_m, std::string why) {
-  const auto& stations = drive.stations;
-  const auto after = std::find_if(
-      stations.begin(), stations.end(),
-      [&](const sim::StationPrediction& station) { return station.station.distance_m >= at_m - 1e-9; });
-  const sim::StationPrediction& station = after == stations.end() ? stations.back() : *after;
-  return {station.station.distance_m, station.station.pose.x_m, station.station.pose.y_m, std::move(why)};
+  const sim::PathStation& station = planner::station_at(drive, at_m).station;
+  return {station.distance_m, station.pose.x_m, station.pose.y_m, std::move(why)};
 }
 
 double halting(const sim::StretchRisk& stretch) {

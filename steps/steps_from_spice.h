@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/result.h"
+#include "sky/mars_time.h"
 #include "steps/kernel_bytes.h"
 #include "steps/slip_step.h"
 
@@ -27,7 +28,7 @@ struct SpiceStepOptions {
   int planet_frame = 10014;   // body-fixed frame in which it is given
   double map_radius_m = 3396190.0;     // of the equidistant cylindrical map
   double sol_zero_et_s = 397446670.0;  // mean local midnight before the landing, which was on sol 0
-  double sol_length_s = 88775.244;
+  double sol_length_s = sky::kSol_s;
   double rest_m = 0.003;                 // less than this is rest
   double turn_rad = rad_from_deg(0.04);  // a drive turns the body by more than this, a correction does not
   double longest_gap_s = 600.0;

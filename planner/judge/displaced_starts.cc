@@ -55,13 +55,6 @@ std::vector<DisplacedStart> starts_of(const StartError& error) {
   return starts;
 }
 
-Pose2 pose_at(const sim::DrivePrediction& drive, double at_m) {
-  const auto station = std::find_if(
-      drive.stations.begin(), drive.stations.end(),
-      [&](const sim::StationPrediction& each) { return each.station.distance_m >= at_m - 1e-9; });
-  return (station == drive.stations.end() ? drive.stations.back() : *station).station.pose;
-}
-
 void drive_from(const PlanProblem& problem, const DriveSteps& commands, Progress& progress,
                 DisplacedStart& start) {
   const std::vector<Motion> motions = command_motions(start.from(commands.start), commands.steps);
@@ -87,7 +80,7 @@ void drive_from(const PlanProblem& problem, const DriveSteps& commands, Progress
     start.rule = judged.rules.front();
     at_m = start.rule->at_m;
   }
-  if (at_m) start.at = pose_at(*drive, *at_m);
+  if (at_m) start.at = station_at(*drive, *at_m).station.pose;
 }
 
 std::string words_of(const DisplacedStarts& starts) {

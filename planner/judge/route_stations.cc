@@ -59,4 +59,11 @@ std::vector<sim::PathStation> route_stations(const std::vector<Motion>& motions,
   return path;
 }
 
+const sim::StationPrediction& station_at(const sim::DrivePrediction& drive, double at_m) {
+  const auto station = std::find_if(
+      drive.stations.begin(), drive.stations.end(),
+      [&](const sim::StationPrediction& each) { return each.station.distance_m >= at_m - 1e-9; });
+  return station == drive.stations.end() ? drive.stations.back() : *station;
+}
+
 }  // namespace slipway::planner

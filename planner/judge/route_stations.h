@@ -12,4 +12,7 @@ namespace slipway::planner {
 // empty; where a motion ends, the last station has exactly its place and heading.
 std::vector<sim::PathStation> route_stations(const std::vector<Motion>& motions, double spacing_m);
 
+// The first station of a drive at a distance or behind it, within rounding; else the last. `drive` has some.
+const sim::StationPrediction& station_at(const sim::DrivePrediction& drive, double at_m);
+
 }  // namespace slipway::planner

@@ -7,6 +7,7 @@
 
 #include "dem/horizon/horizon.h"
 #include "planner/problem/verdict.h"
+#include "sky/mars_time.h"
 #include "sky/sky.h"
 
 namespace slipway::planner {
@@ -37,7 +38,7 @@ struct Departure {
   DepartureRules rules;
   std::shared_ptr<const sky::Sky> sky;
   std::shared_ptr<const dem::Horizon> horizon;
-  double day_s = 88775.244;  // a solar day of the body
+  double day_s = sky::kSol_s;  // a solar day of the body
 };
 
 // A drive from one departure on. Where slip has an interval: at the pace and the energy that a share of the

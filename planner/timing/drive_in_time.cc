@@ -292,7 +292,6 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
   const auto add = [&](std::string name, bool is_known, double value, double low, double limit,
                        std::string unit, std::optional<double> at_m, std::string words) {
     // What is broken stays so, whatever is not known.
-    const bool is_open = low >= limit && !is_known;
     JudgedRule rule{.name = std::move(name),
                     .verdict = low < limit ? Verdict::kNoGo
                                : is_known  ? Verdict::kGo
@@ -303,8 +302,9 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     rule.unit = std::move(unit);
     rule.at_m = at_m;
     rule.words =
-        is_open ? fmt::format("the table of the sky ends before {} is known: give a longer one", rule.name)
-                : std::move(words);
+        rule.verdict == Verdict::kUnknown
+            ? fmt::format("the table of the sky ends before {} is known: give a longer one", rule.name)
+            : std::move(words);
     drive.rules.push_back(std::move(rule));
   };
   const bool sun_is_known = usual.sun_is_known && slow.sun_is_known;

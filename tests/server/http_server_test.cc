@@ -355,63 +355,44 @@ TEST(HttpServer, CountersCountWhatHappened) {
   EXPECT_GE(counters.open_connections, 1U);
 }
 
-TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
+// Eight requests for a slow route are under way `at_once`, and nobody on a route of `others` waits behind
+// them.
+void expect_at_once(int at_once, Threads slow, Threads others) {
   std::atomic<int> now{0}, most{0};
   std::atomic<bool> held{true};
+  const HttpResponse none{204, "", "", {}};
   HttpOptions options;
   options.worker_threads = 2;
   options.heavy_threads = 2;
-  HttpServer server(options, {{"GET", "/light",
-                               [](const HttpRequest&) {
-                                 return HttpResponse{204, "", "", {}};
-                               }},
-                              {"GET", "/heavy/{k}",
+  HttpServer server(options, {{"GET", "/other", [&](const HttpRequest&) { return none; }, others},
+                              {"GET", "/slow/{k}",
                                [&](const HttpRequest&) {
                                  most = std::max(most.load(), ++now);
                                  while (held) std::this_thread::sleep_for(milliseconds(1));
                                  --now;
-                                 return HttpResponse{204, "", "", {}};
+                                 return none;
                                },
-                               Threads::kHeavy}});
+                               slow}});
   const auto port = server.start();
   ASSERT_TRUE(port);
   std::vector<std::unique_ptr<RawClient>> clients;
   for (int k = 0; k < 8; ++k) {
     clients.push_back(std::make_unique<RawClient>(*port));
-    clients.back()->send(get("/heavy/1?k=2"));
+    clients.back()->send(get("/slow/1?k=2"));
   }
-  while (now < 2) std::this_thread::sleep_for(milliseconds(1));
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/light")).status, 204);
+  while (now < at_once) std::this_thread::sleep_for(milliseconds(1));
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/other")).status, 204);
   held = false;
   for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
-  EXPECT_EQ(most, 2);
+  EXPECT_EQ(most, at_once);
+}
+
+TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
+  expect_at_once(2, Threads::kHeavy, Threads::kLight);
 }
 
 TEST(HttpServer, DrawnAnswersAreMadeOneAtATimeAndNoPictureWaitsBehindThem) {
-  std::atomic<int> now{0}, most{0};
-  std::atomic<bool> held{true};
-  const HttpResponse none{204, "", "", {}};
-  HttpServer server({}, {{"GET", "/picture", [&](const HttpRequest&) { return none; }, Threads::kHeavy},
-                         {"GET", "/drawn",
-                          [&](const HttpRequest&) {
-                            most = std::max(most.load(), ++now);
-                            while (held) std::this_thread::sleep_for(milliseconds(1));
-                            --now;
-                            return none;
-                          },
-                          Threads::kDrawn}});
-  const auto port = server.start();
-  ASSERT_TRUE(port);
-  std::vector<std::unique_ptr<RawClient>> clients;
-  for (int k = 0; k < 4; ++k) {
-    clients.push_back(std::make_unique<RawClient>(*port));
-    clients.back()->send(get("/drawn"));
-  }
-  while (now < 1) std::this_thread::sleep_for(milliseconds(1));
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/picture")).status, 204);
-  held = false;
-  for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
-  EXPECT_EQ(most, 1);
+  expect_at_once(1, Threads::kDrawn, Threads::kHeavy);
 }
 
 // One client leaves more requests than there are threads and goes; another one waits for a single request.

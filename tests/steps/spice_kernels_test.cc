@@ -225,13 +225,20 @@ TEST(SpiceSpk, EqualTimesStayInTheOrderOfTheFile) {
   EXPECT_NEAR(segment->states[1].position_m[0], 2.0, 1e-12);
 }
 
-SpkPolynomials polynomials_of(const made::Array& array, bool big_endian) {
-  const std::string bytes = made::daf("DAF/SPK ", {array}, big_endian);
+// The one segment of a kernel that is made of it.
+template <class Segment>
+Segment segment_of(const char* kind, const made::Array& array, bool big_endian,
+                   Result<Segment> (*read)(const DafFile&, const DafArray&)) {
+  const std::string bytes = made::daf(kind, {array}, big_endian);
   const auto daf = DafFile::read(bytes, "made");
   EXPECT_TRUE(daf);
-  auto read = read_spk_polynomials(*daf, daf->arrays()[0]);
-  EXPECT_TRUE(read) << (read ? "" : fault_of(read.error()));
-  return read ? *std::move(read) : SpkPolynomials{};
+  auto segment = read(*daf, daf->arrays()[0]);
+  EXPECT_TRUE(segment) << (segment ? "" : fault_of(segment.error()));
+  return segment ? *std::move(segment) : Segment{};
+}
+
+SpkPolynomials polynomials_of(const made::Array& array, bool big_endian) {
+  return segment_of("DAF/SPK ", array, big_endian, &read_spk_polynomials);
 }
 
 // A cubic is met by four coefficients, in every interval and on both of its ends; its derivative is the
@@ -323,12 +330,7 @@ TEST(SpiceSpk, PolynomialsThatCanNotBe) {
 }
 
 CkSegment attitudes(const made::Array& array, bool big) {
-  const std::string bytes = made::daf("DAF/CK  ", {array}, big);
-  const auto daf = DafFile::read(bytes, "made");
-  EXPECT_TRUE(daf);
-  auto segment = read_ck_segment(*daf, daf->arrays()[0]);
-  EXPECT_TRUE(segment) << (segment ? "" : fault_of(segment.error()));
-  return segment ? *segment : CkSegment{};
+  return segment_of("DAF/CK  ", array, big, &read_ck_segment);
 }
 
 TEST(SpiceCk, Type3IsInterpolatedWithinItsIntervals) {

@@ -92,12 +92,8 @@ std::string bearing_lines(const Bearings& bearings) {
 std::string printed_kernels(api::json::Writer& w, const Answer& answer) {
   const sky::SkySample& seen = *answer.by_kernels;
   w.text("body", answer.body).significant("sun_distance_au", seen.sun_distance_au);
-  for (const auto& [name, bearing] : Bearings{{"sun", seen.sun}, {"earth", seen.earth.value()}})
-    w.key(name)
-        .begin_object()
-        .significant("azimuth_deg", deg_from_rad(bearing.azimuth_rad))
-        .significant("elevation_deg", deg_from_rad(bearing.elevation_rad))
-        .end_object();
+  api::write_bearing(w, "sun", seen.sun);
+  api::write_bearing(w, "earth", seen.earth.value());
   std::string out =
       fmt::format("{} at {:.4f} deg east, {:.4f} deg north: {:.5f} au from the sun\n", answer.body,
                   answer.place.degrees->x, answer.place.degrees->y, seen.sun_distance_au) +
