@@ -14,8 +14,10 @@ mkdir -p "$folder/tree/tests"
 cp -r "$source/deploy" "$folder/tree"
 cp "$source/tests/stages.sh" "$folder/tree/tests"
 
-# A foreign service, which answers every question of the demo.
-"$slipway" serve --port 0 --jobs "" >"$folder/foreign.log" 2>&1 &
+# A foreign service, which answers every question of the demo. Its log is made here: the shell that starts it opens it a
+# moment later.
+: >"$folder/foreign.log"
+"$slipway" serve --port 0 --jobs "" >>"$folder/foreign.log" 2>&1 &
 foreign=$!
 port=""
 for _ in $(seq 100); do
@@ -30,6 +32,8 @@ holds "is port $port taken" "$folder/err"
 kill -0 "$foreign" || { echo "the demo ended the foreign service"; exit 1; }
 kill "$foreign"
 wait "$foreign" 2>/dev/null || true
+# What an earlier demo left in the log is not taken for this one's service.
+echo "slipway serves an earlier run on http://127.0.0.1:$port, until interrupted" >"$folder/tree/var/demo.log"
 expect 0 env PORT="$port" sh "$folder/tree/deploy/demo.sh" --once --built "$slipway"
 holds '^route ' "$folder/out"
 holds '^stage  *minutes' "$folder/out"
