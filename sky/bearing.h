@@ -25,4 +25,13 @@ inline Bearing bearing_of(const Eigen::Vector3d& direction) {
   return {azimuth, std::atan2(direction.z(), std::hypot(direction.x(), direction.y()))};
 }
 
+// The same distant thing as seen from another place of the body, `east_rad` and `north_rad` away: lengths on
+// the map over the body's radius. The level turns with the place, north stays the map's; both must be small
+// (their squares are left out, 2e-6 rad at 2.5 km on the Moon).
+inline Bearing seen_from(const Bearing& here, double east_rad, double north_rad) {
+  const Eigen::Vector3d v = towards(here);
+  return bearing_of(
+      {v.x() - east_rad * v.z(), v.y() - north_rad * v.z(), v.z() + east_rad * v.x() + north_rad * v.y()});
+}
+
 }  // namespace slipway::sky

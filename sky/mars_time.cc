@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "sky/orientation.h"
+#include "sky/planets.h"
 
 namespace slipway::sky {
 namespace {
@@ -76,38 +77,6 @@ Orbit orbit_at(double days) {
                         0.00031 * std::cos(3.0 * mean) - 0.00003 * std::cos(4.0 * mean))};
 }
 
-// Mean elements of an orbit in the ecliptic of J2000 and their change in a century, in degrees.
-struct Elements {
-  double axis_au, eccentricity, inclination, longitude, perihelion, node;
-  double axis_rate, eccentricity_rate, inclination_rate, longitude_rate, perihelion_rate, node_rate;
-};
-constexpr Elements kEarth{1.00000261, 0.01671123,  -0.00001531, 100.46457166,   102.93768193, 0.0,
-                          0.00000562, -0.00004392, -0.01294668, 35999.37244981, 0.32327364,   0.0};
-constexpr Elements kMars{1.52371034, 0.09339410, 1.84969142,  -4.55343205,    -23.94362959, 49.55953891,
-                         0.00001847, 0.00007882, -0.00813131, 19140.30268499, 0.44441088,   -0.29257343};
-
-// From the sun, in the equator of J2000.
-Eigen::Vector3d position_au(const Elements& orbit, double days) {
-  const double centuries = days / 36525.0;
-  const double axis = orbit.axis_au + orbit.axis_rate * centuries;
-  const double e = orbit.eccentricity + orbit.eccentricity_rate * centuries;
-  const double inclination = rad_from_deg(orbit.inclination + orbit.inclination_rate * centuries);
-  const double perihelion = rad_from_deg(orbit.perihelion + orbit.perihelion_rate * centuries);
-  const double node = rad_from_deg(orbit.node + orbit.node_rate * centuries);
-  const double mean =
-      wrapped_rad(rad_from_deg(orbit.longitude + orbit.longitude_rate * centuries) - perihelion);
-  double eccentric = mean;
-  for (int k = 0; k < 20; ++k)
-    eccentric -= (eccentric - e * std::sin(eccentric) - mean) / (1.0 - e * std::cos(eccentric));
-  const Eigen::Vector3d in_orbit(axis * (std::cos(eccentric) - e),
-                                 axis * std::sqrt(1.0 - e * e) * std::sin(eccentric), 0.0);
-  constexpr double kObliquity = rad_from_deg(23.43928);
-  using Eigen::AngleAxisd, Eigen::Vector3d;
-  return AngleAxisd(kObliquity, Vector3d::UnitX()) * AngleAxisd(node, Vector3d::UnitZ()) *
-         AngleAxisd(inclination, Vector3d::UnitX()) * AngleAxisd(perihelion - node, Vector3d::UnitZ()) *
-         in_orbit;
-}
-
 }  // namespace
 
 double terrestrial_days(std::int64_t utc_ms) {
@@ -153,13 +122,18 @@ Bearing mars_sun(std::int64_t utc_ms, double east_longitude_rad, double latitude
 }
 
 Bearing mars_earth(std::int64_t utc_ms, double east_longitude_rad, double latitude_rad) {
-  constexpr double kLightDaysPerAu = 499.004784 / kDay_s;
+  constexpr double kLightDaysPerAu = 499.004784 / kDay_s, kAu_m = 149'597'870'700.0;
   const double days = terrestrial_days(utc_ms);
-  const Eigen::Vector3d mars = position_au(kMars, days);
-  Eigen::Vector3d away = position_au(kEarth, days) - mars;
-  for (int k = 0; k < 3; ++k) away = position_au(kEarth, days - kLightDaysPerAu * away.norm()) - mars;
-  return bearing_of(level_frame(east_longitude_rad, latitude_rad, kMarsPolar) *
-                    (mars_orientation().fixed(days) * away));
+  const Eigen::Matrix3d fixed = mars_orientation().fixed(days);
+  const Eigen::Vector3d eye =
+      from_sun_au(Planet::kMars, days) +
+      fixed.transpose() * on_ellipsoid(east_longitude_rad, latitude_rad, kMarsRadius_m / kAu_m, kMarsPolar);
+  Eigen::Vector3d away = from_sun_au(Planet::kEarth, days) - eye;
+  for (int k = 0; k < 3; ++k) away = from_sun_au(Planet::kEarth, days - kLightDaysPerAu * away.norm()) - eye;
+  const Eigen::Vector3d a_day =
+      from_sun_au(Planet::kMars, days + 0.5) - from_sun_au(Planet::kMars, days - 0.5);
+  return bearing_of(level_frame(east_longitude_rad, latitude_rad, kMarsPolar) * fixed *
+                    (away.normalized() + kLightDaysPerAu * a_day));
 }
 
 }  // namespace slipway::sky

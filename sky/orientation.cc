@@ -40,7 +40,12 @@ Eigen::Matrix3d Orientation::fixed(double days) const {
 }
 
 const Orientation& mars_orientation() {
-  static const Orientation mars{{317.68143, -0.1061}, {52.88650, -0.0609}, {176.630, 350.89198226}, {}};
+  static const Orientation mars{{317.269202, -0.10927547},
+                                {54.432516, -0.05827105},
+                                {176.049863, 350.891982443297},
+                                {{{79.398797, 0.5042615}, 0.419057, 0.0, 0.0},
+                                 {{166.325722, 0.5042615}, 0.0, 1.591274, 0.0},
+                                 {{95.391654, 0.5042615}, 0.0, 0.0, 0.584542}}};
   return mars;
 }
 
@@ -71,6 +76,14 @@ Eigen::Matrix3d level_frame(double east_longitude_rad, double latitude_rad, doub
   Eigen::Matrix3d frame;
   frame << -sl, cl, 0.0, -sp * cl, -sp * sl, cp, cp * cl, cp * sl, sp;
   return frame;
+}
+
+Eigen::Vector3d on_ellipsoid(double east_longitude_rad, double latitude_rad, double equatorial_radius,
+                             double polar) {
+  const double level = std::cos(latitude_rad);
+  const Eigen::Vector3d ray(level * std::cos(east_longitude_rad), level * std::sin(east_longitude_rad),
+                            std::sin(latitude_rad));
+  return ray * (equatorial_radius / Eigen::Vector3d(ray.x(), ray.y(), ray.z() / polar).norm());
 }
 
 }  // namespace slipway::sky

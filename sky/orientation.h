@@ -27,8 +27,8 @@ struct Orientation {
   Eigen::Matrix3d fixed(double days) const;
 };
 
-// Mars without the terms of a revolution of the pole and of a year, which turn it by less than 0.005 deg
-// until 2054.
+// Mars with the terms of a revolution of the pole alone; the others turn it by 0.0003 deg at most from 1800
+// to 2150.
 const Orientation& mars_orientation();
 // The Moon's mean Earth and polar axes, in which its maps are; within 0.006 deg of the Moon's own.
 const Orientation& moon_orientation();
@@ -36,7 +36,10 @@ const Orientation& moon_orientation();
 // East, north and up at a place on an ellipsoid, as rows in the body's frame. The latitude is planetocentric;
 // `polar` is the polar radius over the equatorial one.
 Eigen::Matrix3d level_frame(double east_longitude_rad, double latitude_rad, double polar);
-// Of Mars: 3376.20 over 3396.19 km.
+// From the body's centre, in its frame, in the unit of the equatorial radius. The latitude is planetocentric.
+Eigen::Vector3d on_ellipsoid(double east_longitude_rad, double latitude_rad, double equatorial_radius,
+                             double polar);
+constexpr double kMarsRadius_m = 3'396'190.0;  // at the equator
 constexpr double kMarsPolar = 3376.20 / 3396.19;
 
 }  // namespace slipway::sky

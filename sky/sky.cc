@@ -10,17 +10,6 @@
 #include "sky/mars_time.h"
 
 namespace slipway::sky {
-namespace {
-
-// A share of the way from one direction to another, along the great circle.
-Bearing part_way(const Bearing& from, const Bearing& to, double share) {
-  const Eigen::Vector3d a = towards(from), b = towards(to);
-  const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-  if (angle < 1e-9) return from;
-  return bearing_of((std::sin((1.0 - share) * angle) * a + std::sin(share * angle) * b) / std::sin(angle));
-}
-
-}  // namespace
 
 std::optional<Bearing> MarsSky::sun(std::int64_t utc_ms) const {
   return mars_sun(utc_ms, east_longitude_rad_, latitude_rad_);
@@ -38,6 +27,19 @@ SkyTable::SkyTable(std::vector<SkySample> samples) : samples_(std::move(samples)
   const auto rises = [](const SkySample& a, const SkySample& b) { return a.utc_ms >= b.utc_ms; };
   if (samples_.size() < 2 || std::adjacent_find(samples_.begin(), samples_.end(), rises) != samples_.end())
     throw std::invalid_argument("SkyTable: two moments or more, by rising times");
+  for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
+    const SkySample &from = samples_[k], &to = samples_[k + 1];
+    sun_.emplace_back(from.sun, to.sun);
+    if (from.earth && to.earth) earth_.emplace_back(*from.earth, *to.earth);
+  }
+}
+
+SkyTable::Arc::Arc(const Bearing& first, const Bearing& last)
+    : from(towards(first)), to(towards(last)), angle_rad(std::atan2(from.cross(to).norm(), from.dot(to))) {}
+
+Bearing SkyTable::Arc::at(double share) const {
+  if (angle_rad < 1e-9) return bearing_of(from);
+  return bearing_of(std::sin((1.0 - share) * angle_rad) * from + std::sin(share * angle_rad) * to);
 }
 
 std::optional<SkyTable::Between> SkyTable::between(std::int64_t utc_ms) const {
@@ -46,25 +48,25 @@ std::optional<SkyTable::Between> SkyTable::between(std::int64_t utc_ms) const {
                                 [](std::int64_t at, const SkySample& sample) { return at < sample.utc_ms; });
   if (after == samples_.end()) --after;
   const SkySample &to = *after, &from = *std::prev(after);
-  return Between{&from, &to,
+  return Between{static_cast<std::size_t>(&from - samples_.data()),
                  static_cast<double>(utc_ms - from.utc_ms) / static_cast<double>(to.utc_ms - from.utc_ms)};
 }
 
 std::optional<Bearing> SkyTable::sun(std::int64_t utc_ms) const {
   const auto at = between(utc_ms);
   if (!at) return std::nullopt;
-  return part_way(at->before->sun, at->after->sun, at->share);
+  return sun_[at->arc].at(at->share);
 }
 
 std::optional<Bearing> SkyTable::earth(std::int64_t utc_ms) const {
   const auto at = between(utc_ms);
-  if (!at || !at->before->earth || !at->after->earth) return std::nullopt;
-  return part_way(*at->before->earth, *at->after->earth, at->share);
+  if (!at || earth_.empty()) return std::nullopt;
+  return earth_[at->arc].at(at->share);
 }
 
 double SkyTable::sun_distance_au(std::int64_t utc_ms) const {
   const auto at = between(utc_ms);
-  return (at ? *at->before : samples_.front()).sun_distance_au;
+  return samples_[at ? at->arc : 0].sun_distance_au;
 }
 
 std::optional<Bearing> SkyOverMap::turned(std::optional<Bearing> bearing) const {

@@ -56,13 +56,21 @@ class SkyTable final : public Sky {
   bool is_table() const override { return true; }
 
  private:
+  // From one moment to the next, along a great circle.
+  struct Arc {
+    Arc(const Bearing& first, const Bearing& last);
+    Bearing at(double share) const;
+    Eigen::Vector3d from, to;
+    double angle_rad;
+  };
   struct Between {
-    const SkySample *before, *after;
+    std::size_t arc;
     double share;
   };
   std::optional<Between> between(std::int64_t utc_ms) const;
 
   std::vector<SkySample> samples_;
+  std::vector<Arc> sun_, earth_;
 };
 
 // A sky whose directions count from a map's north: the map's own stands `map_north_rad` clockwise of the

@@ -22,8 +22,8 @@ constexpr double kLight_m_s = 299'792'458.0;
 constexpr double kAu_m = 149'597'870'700.0;
 constexpr double kDay_s = 86'400.0;
 
-constexpr std::array<KernelBody, 2> kBodies{
-    {{"Mars", 499, 4, 3'396'190.0, sky::kMarsPolar, 300'000}, {"Moon", 301, 0, 1'737'400.0, 1.0, 3'600'000}}};
+constexpr std::array<KernelBody, 2> kBodies{{{"Mars", 499, 4, sky::kMarsRadius_m, sky::kMarsPolar, 300'000},
+                                             {"Moon", 301, 0, 1'737'400.0, 1.0, 3'600'000}}};
 
 // What was read of the files before the body's own is looked for.
 struct Read {
@@ -112,12 +112,9 @@ Result<sky::SkySample> KernelSky::over(const SkyPlace& place, std::int64_t utc_m
   if (!centre) return fail(centre.error());
   const Eigen::Matrix3d level = sky::level_frame(place.east_longitude_rad, place.latitude_rad, body_.polar);
   const Eigen::Matrix3d fixed = orientation_.fixed(et_s / kDay_s);
-  const double cosine = std::cos(place.latitude_rad);
-  const Eigen::Vector3d ray(cosine * std::cos(place.east_longitude_rad),
-                            cosine * std::sin(place.east_longitude_rad), std::sin(place.latitude_rad));
-  const Eigen::Vector3d on_ellipsoid_m =
-      ray * body_.radius_m / Eigen::Vector3d(ray.x(), ray.y(), ray.z() / body_.polar).norm();
-  const Eigen::Vector3d eye_m = centre->position_m + fixed.transpose() * on_ellipsoid_m;
+  const Eigen::Vector3d eye_m =
+      centre->position_m + fixed.transpose() * sky::on_ellipsoid(place.east_longitude_rad, place.latitude_rad,
+                                                                 body_.radius_m, body_.polar);
   const auto seen = [&](const Eigen::Vector3d& way_m) {
     return sky::bearing_of(level * fixed * (way_m.normalized() + centre->velocity_m_s / kLight_m_s));
   };

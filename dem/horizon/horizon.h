@@ -27,6 +27,8 @@ class Horizon {
   std::optional<std::vector<double>> all_around_rad(double x_m, double y_m, double eye_m, int count,
                                                     double first_rad = 0.0) const;
 
+  double body_radius_m() const { return body_radius_m_; }
+
  private:
   class Field;
   std::unique_ptr<Field> near_, around_;

@@ -22,7 +22,7 @@ constexpr double kEye_m = 1.0;  // the height of cells and cameras over the grou
 constexpr int kDirections = 72, kFineDirections = 1440;
 // So close to the horizon of the coarse directions a body is compared with that of the fine ones.
 constexpr double kCloseToHorizon_rad = 0.15;
-constexpr std::size_t kMostPlaces = 400;
+constexpr std::size_t kMostPlaces = 800;
 constexpr double kHidden_rad = -0.5 * std::numbers::pi;  // the elevation of what the ground hides
 constexpr double kWholeWay = 0.999;                      // a draw that came so far came to the end
 
@@ -135,6 +135,14 @@ void DriveInTime::set_paces(const sim::DrivePrediction& prediction) {
   set(energies, usual_.energy, slow_.energy);
 }
 
+// Without a body under the terrain its level is the same everywhere.
+sky::Bearing DriveInTime::over_level(const Place& place, const sky::Bearing& over_start) const {
+  if (!departure_.horizon) return over_start;
+  const double per_m = 1.0 / departure_.horizon->body_radius_m();
+  return sky::seen_from(over_start, per_m * (place.x_m - places_.front().x_m),
+                        per_m * (place.y_m - places_.front().y_m));
+}
+
 double DriveInTime::over_horizon_rad(const Place& place, const sky::Bearing& bearing) const {
   if (place.horizon_rad.empty()) return bearing.elevation_rad;
   // Ground below the level hides nothing that is above it, and lights nothing below.
@@ -189,7 +197,8 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
   const auto spend = [&](const Place& place, double seconds, std::optional<double> effort) {
     const std::int64_t middle = after(now, 0.5 * seconds);
     const double distance_m = place.distance_m;
-    const auto sun = departure_.sky->sun(middle);
+    auto sun = departure_.sky->sun(middle);
+    if (sun) sun = over_level(place, *sun);
     const double over = sun ? over_horizon_rad(place, *sun) : 0.0;
     const bool is_lit = sun && over > 0.0;
     const double lit = sun ? lit_between(over_before.value_or(over), over) : 0.0;
@@ -197,7 +206,8 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     course.sun_is_known &= sun.has_value();
     if (sun) course.sun_rad.lower(is_lit ? sun->elevation_rad : kHidden_rad, distance_m);
     if (departure_.rules.min_earth_rad) {
-      const auto earth = departure_.sky->earth(middle);
+      auto earth = departure_.sky->earth(middle);
+      if (earth) earth = over_level(place, *earth);
       const bool in_sight = earth && over_horizon_rad(place, *earth) > 0.0;
       if (earth) course.earth_rad.lower(in_sight ? earth->elevation_rad : kHidden_rad, distance_m);
       course.earth_is_known &= earth.has_value();
@@ -263,7 +273,7 @@ std::optional<double> DriveInTime::light_left_s(std::int64_t from_ms, double eno
   const auto is_lit = [&](double s) -> std::optional<bool> {
     const auto sun = departure_.sky->sun(after(from_ms, s));
     if (!sun) return std::nullopt;
-    return over_horizon_rad(places_.back(), *sun) > 0.0;
+    return over_horizon_rad(places_.back(), over_level(places_.back(), *sun)) > 0.0;
   };
   // An earlier arrival may have shown that the sun shines on.
   const bool shines = from_ms >= lit_from_ms_ && from_ms <= lit_to_ms_;

@@ -23,7 +23,7 @@ Light light_of(double sun_elevation_rad, double sun_distance_au, double optical_
 class DriveInTime {
  public:
   // Of a rover without `power` charge stays what it is. All must outlive it. Horizons are looked at here, at
-  // some 400 places of the way; where that is cancelled it must not be used.
+  // 800 places of the way at most; where that is cancelled it must not be used.
   DriveInTime(const Departure& departure, const sim::RoverModel& rover,
               const sim::DrivePrediction& prediction, const Progress& progress);
 
@@ -52,6 +52,8 @@ class DriveInTime {
   Course run(std::int64_t departs_ms, const Pace& pace, const std::optional<ChargingHalt>& halt,
              std::vector<TimedStation>* stations) const;
   void judge(const Course& usual, const Course& slow, TimedDrive& drive) const;
+  // Of the sky, whose directions are those over the start.
+  sky::Bearing over_level(const Place& place, const sky::Bearing& over_start) const;
   double over_horizon_rad(const Place& place, const sky::Bearing& bearing) const;
   double fine_horizon_rad(const Place& place, double azimuth_rad) const;
   std::optional<double> light_left_s(std::int64_t from_ms, double enough_s) const;

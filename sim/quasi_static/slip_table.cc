@@ -22,8 +22,8 @@ const double kBeyond_rad = rad_from_deg(8.0);
 // Near the steepest side slope that holds the rover its limit of climbing turns up ever faster. Columns whose
 // limits are further apart than this say nothing of each other.
 const double kLimitJump_rad = rad_from_deg(3.0);
-// Speed ratios along and across, power, lean in pitch and roll; then sinkages, then currents.
-constexpr int kMotionFields = 5;
+// Speed ratios along and across, lean in pitch and roll; then the wheels' sinkages, then the motors' torques.
+constexpr int kMotionFields = 4;
 
 }  // namespace
 
@@ -61,6 +61,13 @@ SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& s
   columns_.resize(2 * static_cast<std::size_t>(half) + 1);
   const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s, .motor_temp_c = conditions.motor_temp_c};
   speed_m_s_ = command.speed_m_s * attainable_share(rover, command);
+  drive_ = at_temperature(rover.drive, command.motor_temp_c.value_or(rover.drive.reference_temp_c));
+  const PerWheel<WheelCommand> commands = wheel_commands(rover, command);
+  for (int k = 0; k < wheels_; ++k) {
+    const WheelModel& wheel = rover.wheels[k];
+    const bool is_driven = wheel.drive == WheelDrive::kDriven;
+    rates_rad_s_.push_back(is_driven ? true_motion(wheel, commands[k]).rate_rad_s : 0.0);
+  }
   find_limits(rover, gravity_m_s2, soil, command);
   QuasiStaticSolver solver(rover, gravity_m_s2);
   const int columns = static_cast<int>(columns_.size());
@@ -122,11 +129,10 @@ void SlipTable::fill(Column& column, double lowest_d_rad, double highest_d_rad, 
     double* value = &values_[column.begin + static_cast<std::size_t>((node - column.first) * fields_)];
     *value++ = state.along_m_s / speed_m_s_;
     *value++ = state.leftward_m_s / speed_m_s_;
-    *value++ = state.electric_power_w;
     *value++ = state.attitude.pitch_rad - attitude.pitch_rad;
     *value++ = state.attitude.roll_rad - attitude.roll_rad;
     for (const WheelState& wheel : state.wheels) *value++ = wheel.sinkage_m;
-    for (const WheelState& wheel : state.wheels) *value++ = wheel.current_a;
+    for (int k = 0; k < wheels_; ++k) *value++ = state.wheels[k].torque_nm + rover.wheels[k].drag_nm;
   }
 }
 
@@ -157,16 +163,20 @@ SlipTable::Stencil SlipTable::columns_about(double place) const {
 
 TableEntry SlipTable::entry_of(const double* values, double pitch_rad) const {
   TableEntry entry;
-  const double along = values[0], across = values[1], power_w = std::max(0.0, values[2]);
+  const double along = values[0], across = values[1];
   entry.slip_ratio = bounded_slip(slip_from_speed_ratio(along));
   entry.side_slip_rad = std::atan2(across, std::abs(along));
-  entry.energy_j_m = power_w / (along * speed_m_s_ * std::cos(pitch_rad));
-  entry.pitch_lean_rad = values[3];
-  entry.roll_lean_rad = values[4];
+  entry.pitch_lean_rad = values[2];
+  entry.roll_lean_rad = values[3];
+  double power_w = 0.0;
   for (int k = 0; k < wheels_; ++k) {
     entry.sinkage_m = std::max(entry.sinkage_m, values[kMotionFields + k]);
-    entry.current_a = std::max(entry.current_a, std::abs(values[kMotionFields + wheels_ + k]));
+    if (rates_rad_s_[k] == 0.0) continue;
+    const MotorState motor = motor_state(drive_, values[kMotionFields + wheels_ + k], rates_rad_s_[k]);
+    entry.current_a = std::max(entry.current_a, std::abs(motor.current_a));
+    power_w += motor.electric_power_w;
   }
+  entry.energy_j_m = power_w / (along * speed_m_s_ * std::cos(pitch_rad));
   return entry;
 }
 

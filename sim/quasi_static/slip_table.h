@@ -31,9 +31,9 @@ struct TableEntry {
 //   xi(d) = (d + (b - a) ln(1 + d / a)) / step     dd/dxi = step (d + a) / (d + b)
 //
 // Tabulated are quantities that stay smooth where slip and side slip do not: the speed ratios along and
-// across, the power, the lean, and each wheel's sinkage and current, whose largest is taken after. Cubic
-// between nodes (Lagrange's polynomial through four each way), one-sided at the table's edges and at the
-// limit.
+// across, the lean, and each wheel's sinkage and motor's torque. Currents, which have a kink where the ground
+// drives a motor, and power come from the torques. Cubic between nodes (Lagrange's polynomial through four
+// each way), one-sided at the table's edges and at the limit.
 //
 // A soil with a slip curve needs no nodes: its curve is asked at every attitude.
 class SlipTable {
@@ -68,7 +68,9 @@ class SlipTable {
   TableEntry entry_on_curve(double pitch_rad, double roll_rad) const;
 
   double limit_rad_, step_rad_;
-  double speed_m_s_;  // commanded, as far as it can be attained
+  double speed_m_s_;                 // commanded, as far as it can be attained
+  DriveMotor drive_;                 // at its temperature
+  std::vector<double> rates_rad_s_;  // of the driven wheels; 0 of the others
   int wheels_, fields_;
   std::vector<Column> columns_;
   std::vector<double> values_;

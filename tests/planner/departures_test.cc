@@ -364,6 +364,27 @@ TEST(Departures, TheLastMomentIsTriedToo) {
   EXPECT_EQ(found.tried.size(), 3U);
 }
 
+// On a body with a radius of 100 km a drive of 100 m towards the sun raises it by 0.057 deg.
+TEST(DriveInTime, TheLevelTurnsAlongTheWay) {
+  constexpr dem::GridGeometry kGrid{
+      .rows = 100, .columns = 130, .west_m = 0.0, .north_m = 100.0, .cell_x_m = 1.0, .cell_y_m = 1.0};
+  const std::size_t cells = 13'000;
+  Departure departure = a_day();
+  departure.horizon = std::make_shared<dem::Horizon>(
+      std::make_shared<dem::Terrain>(kGrid, std::vector<float>(cells), std::vector<std::uint8_t>(cells, 1)),
+      1e5);
+  const sky::Bearing ahead{rad_from_deg(90.0), rad_from_deg(20.0)};
+  departure.sky = std::make_shared<sky::SkyTable>(
+      std::vector<sky::SkySample>{{0, ahead, {}, 1.0}, {24 * kHour_ms, ahead, {}, 1.0}});
+  departure.rules.min_sun_rad = rad_from_deg(20.03);
+  const TimedDrive drive = DriveInTime(departure, kOnCells, two_hours(), kNoProgress).at(0, true);
+  EXPECT_NEAR(drive.stations.front().sun_over_horizon_rad, ahead.elevation_rad, 1e-9);
+  EXPECT_NEAR(drive.stations.back().sun_over_horizon_rad - ahead.elevation_rad, 1e-3, 1e-6);
+  EXPECT_FALSE(holds(drive));  // at the start
+  departure.rules.min_sun_rad = rad_from_deg(19.99);
+  EXPECT_TRUE(holds(DriveInTime(departure, kOnCells, two_hours(), kNoProgress).at(0)));
+}
+
 TEST(Departures, BehindAWallTheSunIsNotInSight) {
   constexpr dem::GridGeometry kGrid{
       .rows = 100, .columns = 130, .west_m = 0.0, .north_m = 100.0, .cell_x_m = 1.0, .cell_y_m = 1.0};

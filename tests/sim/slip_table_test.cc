@@ -39,7 +39,7 @@ TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticLevelToAThousandthOfSlip) 
       EXPECT_NEAR(entry->slip_ratio, state.slip_ratio, 1e-3) << pitch << " " << roll;
       EXPECT_NEAR(entry->side_slip_rad, state.side_slip_rad, rad_from_deg(0.2)) << pitch << " " << roll;
       EXPECT_NEAR(entry->sinkage_m, sinkage, 0.01 * sinkage) << pitch << " " << roll;
-      EXPECT_NEAR(entry->current_a, current, std::max(0.003, 0.01 * current)) << pitch << " " << roll;
+      EXPECT_NEAR(entry->current_a, current, 0.002 * current) << pitch << " " << roll;
       EXPECT_NEAR(rad_from_deg(pitch) + entry->pitch_lean_rad, state.attitude.pitch_rad, lean_rad);
       EXPECT_NEAR(rad_from_deg(roll) + entry->roll_lean_rad, state.attitude.roll_rad, lean_rad);
       largest_lean = std::max(largest_lean, std::abs(entry->pitch_lean_rad));

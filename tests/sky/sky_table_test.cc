@@ -52,5 +52,24 @@ TEST(SkyTable, OfMarsIsNearTheFormulasBetweenItsMoments) {
   EXPECT_LT(deg_from_rad(worst), 0.005);
 }
 
+// Five kilometres away, by the formulas of both places.
+TEST(Bearing, IsSeenFromAPlaceBeside) {
+  constexpr double kRadius_m = 3'396'190.0, kEast_m = 4'000.0, kNorth_m = 3'000.0;
+  const double east = rad_from_deg(137.4), latitude = rad_from_deg(-4.6);
+  const MarsSky here(east, latitude),
+      there(east + kEast_m / (kRadius_m * std::cos(latitude)), latitude + kNorth_m / kRadius_m);
+  const std::int64_t from = utc_of_text("2026-11-29T00:00:00Z").value();
+  double moved = 0.0, missed = 0.0;
+  for (std::int64_t at = from; at < from + 86'400'000; at += 3'600'000) {
+    const Eigen::Vector3d before = towards(*here.sun(at)), after = towards(*there.sun(at));
+    moved = std::max(moved, before.cross(after).norm());
+    missed = std::max(
+        missed,
+        towards(seen_from(*here.sun(at), kEast_m / kRadius_m, kNorth_m / kRadius_m)).cross(after).norm());
+  }
+  EXPECT_GT(deg_from_rad(moved), 0.08);
+  EXPECT_LT(deg_from_rad(missed), 0.01);
+}
+
 }  // namespace
 }  // namespace slipway::sky

@@ -15,6 +15,7 @@
 #include "daf_writer.h"
 #include "published_orbits.h"
 #include "sky/mars_time.h"
+#include "sky/planets.h"
 #include "steps/spice_orientation.h"
 
 namespace slipway::steps {
@@ -49,12 +50,18 @@ std::string moon_kernel(double first_day, std::size_t days, bool big_endian = fa
                    big_endian);
 }
 
+std::array<double, 3> planet_km(sky::Planet planet, double et_s) {
+  return published::array_of(published::kAu_km * sky::from_sun_au(planet, et_s / kDay_s));
+}
+
 std::string mars_kernel(double first_day, std::size_t days) {
   const double first_s = kDay_s * first_day;
   return made::daf("DAF/SPK ",
                    {made::chebyshev(2, 10, 0, first_s, kDay_s, days, 2, resting_km),
-                    made::chebyshev(2, 399, 10, first_s, kDay_s, days, 8, published::earth_by_elements_km),
-                    made::chebyshev(2, 4, 10, first_s, kDay_s, days, 8, published::mars_by_elements_km)},
+                    made::chebyshev(2, 399, 10, first_s, kDay_s, days, 8,
+                                    [](double et_s) { return planet_km(sky::Planet::kEarth, et_s); }),
+                    made::chebyshev(2, 4, 10, first_s, kDay_s, days, 8,
+                                    [](double et_s) { return planet_km(sky::Planet::kMars, et_s); })},
                    false);
 }
 
@@ -120,7 +127,8 @@ TEST(KernelSky, SeesTheEarthFromTheSurface) {
   EXPECT_NEAR(deg_from_rad(limb.earth->elevation_rad), -parallax_deg, 0.02);
 }
 
-// Allison and McEwen's sun and the Earth of mean elements, which sky/mars_time.h has, over places and years.
+// Allison and McEwen's sun, which knows nothing of planets.h, and the Earth of sky/mars_time.h, over places
+// and years.
 TEST(KernelSky, OfMarsIsThatOfTheFormulas) {
   double sun_deg = 0.0, earth_deg = 0.0, distance_au = 0.0;
   for (int k = 0; k < 60; ++k) {
@@ -135,8 +143,8 @@ TEST(KernelSky, OfMarsIsThatOfTheFormulas) {
     distance_au =
         std::max(distance_au, std::abs(sample.sun_distance_au - sky::mars_time(then, east).sun_distance_au));
   }
-  EXPECT_LT(sun_deg, 0.036);
-  EXPECT_LT(earth_deg, 0.03);
+  EXPECT_LT(sun_deg, 0.011);
+  EXPECT_LT(earth_deg, 0.001);
   EXPECT_LT(distance_au, 0.001);
   std::printf("sun within %.4f deg, Earth within %.4f deg, %.5f au\n", sun_deg, earth_deg, distance_au);
 }
@@ -297,7 +305,7 @@ TEST(SpiceOrientation, OfMarsIsNearTheOneThatIsBuiltIn) {
   double most_deg = 0.0;
   for (double days = 0.0; days < 20000.0; days += 97.0)
     most_deg = std::max(most_deg, degrees_between(**mars, sky::mars_orientation(), days));
-  EXPECT_LT(most_deg, 0.005);
+  EXPECT_LT(most_deg, 0.0004);
   std::printf("within %.4f deg\n", most_deg);
 }
 

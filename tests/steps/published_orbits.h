@@ -112,31 +112,4 @@ inline std::array<double, 3> earth_km(double et_s) {
   return array_of(-from_ecliptic_of_date(longitude_deg, 0.0, kAu_km * distance_au, t));
 }
 
-// From the sun, by mean elements and their change in a century [Standish, 1800 to 2050].
-inline std::array<double, 3> by_elements_km(const std::array<double, 12>& of, double et_s) {
-  const double t = et_s / kCentury_s;
-  const auto element = [&](std::size_t k) { return of[k] + of[k + 6] * t; };
-  const double a = element(0), e = element(1), inclination = rad_from_deg(element(2));
-  const double perihelion = rad_from_deg(element(4)), node = rad_from_deg(element(5));
-  const double mean = rad_from_deg(element(3)) - perihelion;
-  double eccentric = mean;
-  for (int k = 0; k < 50; ++k) eccentric = mean + e * std::sin(eccentric);
-  const Eigen::Vector3d in_orbit(a * (std::cos(eccentric) - e),
-                                 a * std::sqrt(1.0 - e * e) * std::sin(eccentric), 0.0);
-  using Eigen::AngleAxisd, Eigen::Vector3d;
-  return array_of(kAu_km * (AngleAxisd(rad_from_deg(23.43928), Vector3d::UnitX()) *
-                            AngleAxisd(node, Vector3d::UnitZ()) * AngleAxisd(inclination, Vector3d::UnitX()) *
-                            AngleAxisd(perihelion - node, Vector3d::UnitZ()) * in_orbit));
-}
-inline std::array<double, 3> mars_by_elements_km(double et_s) {
-  return by_elements_km({1.52371034, 0.09339410, 1.84969142, -4.55343205, -23.94362959, 49.55953891,
-                         0.00001847, 0.00007882, -0.00813131, 19140.30268499, 0.44441088, -0.29257343},
-                        et_s);
-}
-inline std::array<double, 3> earth_by_elements_km(double et_s) {
-  return by_elements_km({1.00000261, 0.01671123, -0.00001531, 100.46457166, 102.93768193, 0.0, 0.00000562,
-                         -0.00004392, -0.01294668, 35999.37244981, 0.32327364, 0.0},
-                        et_s);
-}
-
 }  // namespace slipway::steps::published

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFirstPitch_deg = -24.0, kPitchStep_deg = 1.1, kFirstRoll_deg = -18.0, kRollStep_deg = 1.3;
 // Currents have a kink where the ground begins to drive a motor, which the table rounds off.
-constexpr double kCurrentBand = 0.03, kEnergyBand = 0.03;
+constexpr double kCurrentBand = 0.003, kEnergyBand = 0.03;
 constexpr int kPitches = 44, kRolls = 28;
 const double kTableLimit_rad = rad_from_deg(30.0), kTableStep_rad = rad_from_deg(2.5);
 
