@@ -100,7 +100,8 @@ class Artemis:
         r, b, front = self.r, self.b, self.front
         top, sigma, along, across = stresses(front)
         rear = -self.exit_ratio * front
-        self.strength_along_n = b * r * split(lambda t: (self.soil["cohesion_pa"] + sigma(t) * math.tan(math.radians(self.soil["friction_angle_deg"]))) * math.cos(t), rear, top, front)
+        c, tan_phi = self.soil["cohesion_pa"], math.tan(math.radians(self.soil["friction_angle_deg"]))
+        self.strength_along_n = b * r * split(lambda t: (c + sigma(t) * tan_phi) * math.cos(t), rear, top, front)
         self.sinkage_m = r * (1 - math.cos(front))
         self.thrust_n = b * r * split(lambda t: along(t) * math.cos(t), rear, top, front)
         self.compaction_resistance_n = b * r * split(lambda t: sigma(t) * math.sin(t), rear, top, front)
@@ -153,12 +154,15 @@ def part_fido():
         turned = [(float(re.search(r"turn_\w+?_(\d+)", name)[1]), heading_error(pair)) for name, test in turns.items() for pair in test]
         within = [(size, error < 0.1 * size) for size, error in turned]
         turn_averages = [statistics.mean(map(heading_error, test)) for test in turns.values()]
-        print(f"  {terrain}: slip {100 * slip['lowest']:.2f} to {100 * slip['highest']:.1f} %, 5 to 95 % of drives {100 * slip['p05']:.1f} to {100 * slip['p95']:.1f} %, "
+        print(f"  {terrain}: slip {100 * slip['lowest']:.2f} to {100 * slip['highest']:.1f} %, "
+              f"5 to 95 % of drives {100 * slip['p05']:.1f} to {100 * slip['p95']:.1f} %, "
               f"standard deviation {100 * statistics.pstdev(p[0]['final_slip_ratio'] for p in pairs):.1f} points; "
               f"on one sand as ROAMS's {100 * roams[terrain]['final_slip_ratio']['lowest']:.1f} to {100 * roams[terrain]['final_slip_ratio']['highest']:.1f} %")
         print(f"    drives: {sum(a > 6 for a in averages)} of {len(averages)} tests average beyond 6 deg, at most {max(averages):.1f} deg; "
-              f"tight arcs {statistics.mean(tight):.1f} deg, others {statistics.mean(other):.1f} deg; forward {1000 * statistics.mean(forward):.0f} mm, sideways {1000 * statistics.mean(aside):.0f} mm")
-        print(f"    turns: {100 * statistics.mean(w for _, w in within):.0f} % within a tenth of the turn, {100 * statistics.mean(w for size, w in within if size == 5):.0f} % of those of 5 deg; mean error {statistics.mean(e for _, e in turned):.1f} deg; "
+              f"tight arcs {statistics.mean(tight):.1f} deg, others {statistics.mean(other):.1f} deg; "
+              f"forward {1000 * statistics.mean(forward):.0f} mm, sideways {1000 * statistics.mean(aside):.0f} mm")
+        print(f"    turns: {100 * statistics.mean(w for _, w in within):.0f} % within a tenth of the turn, "
+              f"{100 * statistics.mean(w for size, w in within if size == 5):.0f} % of those of 5 deg; mean error {statistics.mean(e for _, e in turned):.1f} deg; "
               f"{sum(a > 6 for a in turn_averages)} of {len(turn_averages)} tests average beyond 6 deg, at most {max(turn_averages):.1f} deg")
 
 
@@ -167,7 +171,8 @@ def part_slide():
     with tempfile.TemporaryDirectory() as folder:
         drives, _ = campaign(root / "docs/guide/examples/sliding.json", pathlib.Path(folder))
     for name, drive in drives.items():
-        print(f"  {name}: {abs(drive['final']['y_m'] - drive['start']['y_m']):.2f} m across, {drive['start']['x_m'] - drive['final']['x_m']:.2f} m down the slope, {drive['end']}")
+        print(f"  {name}: {abs(drive['final']['y_m'] - drive['start']['y_m']):.2f} m across, "
+              f"{drive['start']['x_m'] - drive['final']['x_m']:.2f} m down the slope, {drive['end']}")
 
 
 def part_wheel():
@@ -284,7 +289,8 @@ def part_slip_sinkage():
         print(f"  slip {slip}: sinkage printed equation {1000 * paper.sinkage_m:.3f} mm, program {1000 * row['sinkage_m']:.3f} mm; pull {paper.drawbar_pull_n:.3f}, {row['drawbar_pull_n']:.3f} N")
         row = wheel(*ON_SAND, "--slip", str(slip), "--slip-angle-deg", "30", "--effect", "slip_sinkage:n1=0.3")[0]
         paper = Artemis(soil, 0.125, 0.16, 100, slip, math.radians(30), n=soil["n"] + 0.3 * slip)
-        print(f"  slip {slip}, 30 deg: sinkage printed equation {1000 * paper.sinkage_m:.3f} mm, program {1000 * row['sinkage_m']:.3f} mm ({100 * (row['sinkage_m'] / paper.sinkage_m - 1):+.1f} %)")
+        print(f"  slip {slip}, 30 deg: sinkage printed equation {1000 * paper.sinkage_m:.3f} mm, "
+              f"program {1000 * row['sinkage_m']:.3f} mm ({100 * (row['sinkage_m'] / paper.sinkage_m - 1):+.1f} %)")
 
 
 def part_estimate():
@@ -447,13 +453,15 @@ def trends_10(rows):
     several = [c for c in over_n.values() if len(c) > 1]
     full = [p for p in places.values() if len(p) == 3]
     print(f"    over k_s: falls on {count(over_k.values(), False)} of {len(over_k)} curves; over n: rises on {count(several, True)} of {len(several)}; "
-          f"over slip: rises on {count(over_slip.values(), True)} of {len(over_slip)}; JLU Mars 2's shear draws most at {sum(max(p, key=lambda s: s[1])[0] == 'b' for p in full)} of {len(full)} pairs of k_s and n")
+          f"over slip: rises on {count(over_slip.values(), True)} of {len(over_slip)}; "
+          f"JLU Mars 2's shear draws most at {sum(max(p, key=lambda s: s[1])[0] == 'b' for p in full)} of {len(full)} pairs of k_s and n")
     for simulant in "abc":
         peaks = [max(current for _, current in over_k[simulant + "2", slip]) for slip in (0.1, 0.9)]
         curves = {n: dict(over_k[simulant + "1", n]) for n in (0.7, 1.4)}
         shared = sorted(curves[0.7].keys() & curves[1.4].keys())
         steep = [max((curve[a] - curve[b]) / (b - a) for a, b in zip(shared, shared[1:])) * 1e6 for curve in curves.values()]
-        print(f"    {simulant}: greatest current over k_s {peaks[0]:.2f} A at slip 0.1, {peaks[1]:.2f} A at 0.9; steepest fall from k_s {shared[0] / 1000:.0f} kN/m^(n+2) on: "
+        print(f"    {simulant}: greatest current over k_s {peaks[0]:.2f} A at slip 0.1, {peaks[1]:.2f} A at 0.9; "
+              f"steepest fall from k_s {shared[0] / 1000:.0f} kN/m^(n+2) on: "
               f"{steep[0]:.2f} A per 1,000 kN/m^(n+2) with n 0.7, {steep[1]:.2f} with n 1.4")
 
 
@@ -463,12 +471,14 @@ def part_tests():
     errors = [100 * (i - said) / i for i in six]
     print("  Table 4: errors " + ", ".join(f"{e:+.2f}" for e in errors) + f" %, mean of their sizes {statistics.mean(map(abs, errors)):.2f} %")
     for name, of in (("+Y", six[:3]), ("-Y", six[3:]), ("all", six)):
-        print(f"    mean {name}: printed {means[name]:.3f} A, error {100 * (means[name] - said) / means[name]:+.2f} %; mean of the printed currents {statistics.mean(of):.4f} A, error {100 * (statistics.mean(of) - said) / statistics.mean(of):+.2f} %")
+        print(f"    mean {name}: printed {means[name]:.3f} A, error {100 * (means[name] - said) / means[name]:+.2f} %; "
+              f"mean of the printed currents {statistics.mean(of):.4f} A, error {100 * (statistics.mean(of) - said) / statistics.mean(of):+.2f} %")
     for soil, slip, error in (("jlu_mars_2_dense", 0.05, 47.82), ("jlu_mars_2_dense", 0.5, 2.26), ("jlu_mars_3_dense", 0.28, 0.99), ("jlu_mars_3_dense", 0.59, 11.51)):
         literal, balanced = (float(json.loads(run("current", "map", "--soil", soil, "--x", f"slip={slip}", "--model", model, "--json"))["panels"][0]["points"][0]["current_a"])
                              for model in ("literal", "balanced"))
         low, high = literal / (1 + error / 100), literal / (1 - error / 100)
-        print(f"  {soil}, slip {slip}: literal {literal:.3f} A; by its error of {error} % {low:.3f} or {high:.3f} A were measured; balanced {balanced:.3f} A, {balanced / high:.2f} to {balanced / low:.2f} times that")
+        print(f"  {soil}, slip {slip}: literal {literal:.3f} A; by its error of {error} % {low:.3f} or {high:.3f} A were measured; "
+              f"balanced {balanced:.3f} A, {balanced / high:.2f} to {balanced / low:.2f} times that")
     print(f"  section 4.2: (13 x 14.58 + 8 x 8.40) / 21 = {(13 * 14.58 + 8 * 8.40) / 21:.2f} %; the nine other tests on JLU Mars 2 average {(17 * 6.52 - 8 * 8.40) / 9:.1f} %, "
           f"the four of low pull {(13 * 14.58 - (17 * 6.52 - 8 * 8.40)) / 4:.1f} %")
 
