@@ -198,10 +198,13 @@ Result<Report> artemis_cases(const std::filesystem::path& data) {
       "The right middle wheel lifts where the soil holds wheels with more than their load, since "
       "the bogie's pivot is high: on the bundled dense soil at Spirit (15 kPa of cohesion), and "
       "with its friction angle from about 10 kPa on; with 5 kPa or less it does not lift, even on "
-      "slopes or before bumps. It stays up for the rest of the drive, while Spirit's came down. In "
+      "slopes or before bumps. The soil is chosen for that. The wheel stays up for the rest of the "
+      "drive; the paper says that Spirit's rose during certain drive events. In "
       "such soil the laws give a dragged locked wheel a negative load at times, as no real soil "
       "does; dragging is therefore shown on another soil.");
-  report.notes.push_back("One case that ARTEMIS lists is left out: sliding down slopes.");
+  report.notes.push_back(
+      "One case that ARTEMIS lists is left out here: sliding down slopes, which "
+      "docs/guide/examples/sliding.json drives.");
   return report;
 }
 

@@ -305,9 +305,10 @@ Result<Report> fido_table_1(const std::filesystem::path& data) {
   report.notes.push_back(
       "Headings and positions compare drives on drawn soils with the same drive on the mean soil, "
       "by the larger of the errors in x and y; this is what a prediction with the right "
-      "distribution of soils would miss. The paper compares ROAMS with FIDO: headings are mostly "
-      "within 6 deg below 20 deg, and in 12 of 20 runs beyond it at 20 deg, by up to 21; positions "
-      "are mostly within 10, 20 and 40 cm. FIDO met paving stones, which are in no soil here.");
+      "distribution of soils would miss. The paper compares ROAMS with FIDO: headings, of drives or "
+      "of turns, are mostly within 6 deg below 20 deg, and in 12 of 20 runs beyond it at 20 deg, by "
+      "up to 21; positions are mostly within 10, 20 and 40 cm. FIDO met paving stones, which are in "
+      "no soil here.");
   report.notes.push_back(
       "Turns in place are the first repeats, from 5 to 245 deg. In the paper errors are usually "
       "below a tenth of the turn below 20 deg.");
