@@ -57,6 +57,11 @@ std::string conditions_of(const TerrainSite& terrain, const std::string& rover, 
   return w.take();
 }
 
+// The soil that is assumed where no map names one.
+std::string assumed_soil(const DriveAssumptions& drive, double gravity_m_s2) {
+  return drive.unknown_soil.empty() ? std::string(unknown_ground_at(gravity_m_s2)) : drive.unknown_soil;
+}
+
 // What the map's soils and unknown ground are believed to be.
 sim::SoilBeliefs beliefs_of(const Catalogue& catalogue, const DriveAssumptions& drive,
                             const std::vector<RegionalSoil>& soils, double confidence, double gravity_m_s2,
@@ -64,10 +69,10 @@ sim::SoilBeliefs beliefs_of(const Catalogue& catalogue, const DriveAssumptions& 
   sim::SoilBeliefs beliefs;
   const std::string unmapped(unknown_ground_at(gravity_m_s2));
   for (const RegionalSoil& soil : soils)
-    beliefs.known.push_back(
-        believed(catalogue, soil, drive.confidence.value_or(confidence), unmapped, effects));
-  beliefs.unknown = believed(catalogue, {drive.unknown_soil.empty() ? unmapped : drive.unknown_soil, {}}, 1.0,
-                             unmapped, effects);
+    beliefs.known.push_back(believed(
+        catalogue, soil, soil.is_mapped ? drive.confidence.value_or(confidence) : 1.0, unmapped, effects));
+  beliefs.unknown =
+      believed(catalogue, {assumed_soil(drive, gravity_m_s2), {}, false}, 1.0, unmapped, effects);
   return beliefs;
 }
 
@@ -188,7 +193,8 @@ Result<DriveSetting> set_up(const Service& service, const std::string& terrain, 
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
   problem.terrain_is_whole_map = problem.terrain->geometry() == site.info().geometry;
-  RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
+  const RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects),
+                                               assumed_soil(drive, site.description().gravity_m_s2));
   problem.soil_map = soils.map;
   problem.beliefs =
       beliefs_of(*catalogue, drive, soils.soils, legend.confidence, site.description().gravity_m_s2, effects);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPlanned = 0.85;        // of the work
 constexpr double kLikelyEnough = 0.005;  // a halt on a stretch
-constexpr double kCorner_m = 1.0;        // between corners of the way back, at least
+constexpr double kLeast_m = 1e-6;        // that is still a drive
 
 PlaceOnWay place_at(const sim::DrivePrediction& drive, double at_m, std::string why) {
   const sim::PathStation& station = planner::station_at(drive, at_m).station;
@@ -98,8 +98,25 @@ std::optional<DepartureRequest> day_from(const DepartureRequest& day, const plan
   return later;
 }
 
-// The way from a place back to the start, driven backwards.
-CheckRequest back_from(const PlanRequest& plan, const sim::DrivePrediction& drive, const PlaceOnWay& from) {
+// The commands of a route up to a place, driven backwards from there to the start: the last first, each with
+// its curve and turn the other way.
+std::vector<planner::DriveStep> commands_back(const std::vector<planner::DriveStep>& commands,
+                                              double from_m) {
+  std::vector<planner::DriveStep> back;
+  double left_m = from_m;
+  for (const planner::DriveStep& step : commands) {
+    if (step.drive_m > 0.0 && left_m < kLeast_m) break;
+    const double drive_m = std::min(step.drive_m, left_m);
+    left_m -= drive_m;
+    back.push_back({drive_m, -step.radius_m, -step.turn_rad});
+  }
+  // A turn at the place itself is of what comes after it.
+  while (!back.empty() && back.back().drive_m == 0.0) back.pop_back();
+  std::reverse(back.begin(), back.end());
+  return back;
+}
+
+CheckRequest back_from(const PlanRequest& plan, const planner::Route& route, const PlaceOnWay& from) {
   CheckRequest check;
   check.terrain = plan.terrain;
   check.rover = plan.rover;
@@ -108,16 +125,9 @@ CheckRequest back_from(const PlanRequest& plan, const sim::DrivePrediction& driv
   check.drive = plan.drive;
   check.drive.departure.reset();
   check.manner.backwards = true;
-  const double apart =
-      std::max(kCorner_m, 2.0 * from.at_m / static_cast<double>(RequestLimits::kPathCorners));
-  double last = from.at_m + 2.0 * apart;
-  for (auto station = drive.stations.rbegin(); station != drive.stations.rend(); ++station) {
-    const double at = station->station.distance_m;
-    if (at > from.at_m + 1e-9 || (last - at < apart && at > 0.0)) continue;
-    if (!check.path.empty() && last - at < 1e-6) continue;
-    check.path.push_back({station->station.pose.x_m, station->station.pose.y_m, {}});
-    last = at;
-  }
+  const Pose2& pose = planner::station_at(route.prediction, from.at_m).station.pose;
+  check.path = {{pose.x_m, pose.y_m, pose.yaw_rad}};
+  check.commands = commands_back(route.commands.steps, from.at_m);
   return check;
 }
 
@@ -147,13 +157,13 @@ Result<SolAnswer> run_sol(const Service& service, const PlanRequest& request, Pr
     answer.time_runs_out =
         place_when_time_is_over(*route.decision.departures, request.drive.departure->rules, drive);
   if (!answer.worst) return answer;
-  CheckRequest back = back_from(request, drive, *answer.worst);
+  CheckRequest back = back_from(request, route, *answer.worst);
   if (route.decision.departures) {
     back.drive.departure =
         day_from(*request.drive.departure, route.decision.departures->drive, answer.worst->at_m);
     if (!back.drive.departure) answer.no_way_back = "the table of the sky ends before the rover is there";
   }
-  if (back.path.size() < 2) answer.no_way_back = "the worst place is at the start";
+  if (back.commands.empty()) answer.no_way_back = "the worst place is at the start";
   if (!answer.no_way_back.empty()) return answer;
   planner::StageProgress backing(progress, "backing out of the worst place", kPlanned, 1.0);
   auto back_out = run_check(service, back, backing);

@@ -19,7 +19,8 @@ Site gale() {
   sim::apply_effects(effects, *driven);
   problem.rover = driven;
   problem.terrain = ground.terrain;
-  const api::RegionalSoils soils = api::soils_in_regions(ground.soil_map, sim::effect_regions(effects));
+  const api::RegionalSoils soils =
+      api::soils_in_regions(ground.soil_map, sim::effect_regions(effects), std::string(api::kUnknownGround));
   problem.soil_map = soils.map;
   for (const api::RegionalSoil& soil : soils.soils)
     problem.beliefs.known.push_back(api::believed(

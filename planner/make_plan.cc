@@ -81,7 +81,7 @@ class Planning {
     mark_pareto_front(plan.routes);
     explain(plan.routes, problem_.ranking);
     plan.scout = scout_of(plan.routes);
-    advise(plan);
+    advise_first(plan);
     progress_.report("ranking", 1.0);
     return plan;
   }
@@ -252,16 +252,16 @@ class Planning {
   }
 
   // What would make the first route better; only what was tried.
-  void advise(Plan& plan) const {
+  void advise_first(Plan& plan) const {
     if (plan.routes.empty()) return;
     Route& first = plan.routes.front();
     StageProgress stage(progress_, "ranking", kSimulated, 1.0);
     const auto stations = route_stations(command_motions(first.commands.start, first.commands.steps),
                                          sim::max_station_spacing_m(*problem_.rover));
-    for (auto&& advice : {other_route(plan.routes),
-                          shorter_drive(problem_, stations, first.prediction, first.decision, stage),
-                          scout_drive(problem_, first.prediction, first.decision)})
-      if (advice) first.decision.advice.push_back(*advice);
+    advise(
+        {other_route(plan.routes), shorter_drive(problem_, stations, first.prediction, first.decision, stage),
+         scout_drive(problem_, first.prediction, first.decision)},
+        first.prediction.draws, first.decision);
   }
 
   static void rank(Plan& plan) {

@@ -132,8 +132,7 @@ DriveVerdict judge_motions(const PlanProblem& problem, const std::vector<Motion>
   DriveVerdict verdict = judge_drive(problem, prediction, {.motions = &motions, .dynamic = dynamic});
   add_departures(problem, prediction, verdict, progress);
   auto shorter = shorter_drive(problem, stations_of(problem, motions, manner), prediction, verdict, progress);
-  for (auto&& advice : {std::move(shorter), scout_drive(problem, prediction, verdict)})
-    if (advice) verdict.advice.push_back(*advice);
+  advise({std::move(shorter), scout_drive(problem, prediction, verdict)}, prediction.draws, verdict);
   return verdict;
 }
 

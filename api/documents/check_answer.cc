@@ -101,6 +101,7 @@ void write_decision(Writer& w, const planner::DriveVerdict& decision) {
   w.end_array().key("advice").begin_array();
   for (const planner::Advice& advice : decision.advice) write_advice(w, advice);
   w.end_array();
+  if (!decision.otherwise.empty()) w.text("otherwise", decision.otherwise);
   if (decision.departures) write_departures(w, *decision.departures);
   if (decision.starts) write_starts(w, *decision.starts);
   w.end_object();

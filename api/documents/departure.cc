@@ -159,6 +159,8 @@ void read_departure(ObjectReader& reader, std::optional<DepartureRequest>& out) 
   }
   read_rules(*object, departure.rules);
   if (from && to && departure.to_ms < departure.from_ms) object->fault("to", "is before from");
+  if (from && departure.rules.arrive_by && *departure.rules.arrive_by <= departure.from_ms)
+    object->fault("arrive_by", "is not behind from: no drive arrives before it departs");
   const double days = static_cast<double>(departure.to_ms - departure.from_ms) / 86.4e6;
   if (from && to && days > RequestLimits::kDepartureDays)
     object->fault("to", fmt::format("is {:.0f} days behind from, must be within {:.0f}", days,

@@ -29,12 +29,6 @@ std::string shortened(const JsonValue& value) {
   return words;
 }
 
-// From some start that the rover may have it is no GO.
-bool hangs_on_start(const JsonValue& decision) {
-  const JsonValue& starts = at(decision, "starts");
-  return number(starts, "go") < number(starts, "starts");
-}
-
 }  // namespace
 
 void add_verdict_banner(ReportPage& page, const JsonValue& document) {
@@ -44,21 +38,17 @@ void add_verdict_banner(ReportPage& page, const JsonValue& document) {
                                                                                  : ReportPage::Tone::kOpen);
 }
 
-std::string_view without_advice(const JsonValue& decision) {
-  if (hangs_on_start(decision))
-    return "knowing better where the rover stands and how it is turned, before it drives";
-  if (has(decision, "departures") && !has(at(decision, "departures"), "best"))
-    return "another time, more charge or a longer table of the sky: of no departure that was asked for is it "
-           "known that it keeps the rules of the day, nor of a shorter drive";
-  return "another way or another goal; no shorter drive and no scout drive does";
+std::vector<std::string> what_would_change(const JsonValue& decision) {
+  std::vector<std::string> changes;
+  for (const JsonValue& each : at(decision, "advice").elements) changes.push_back(text(each, "words"));
+  if (has(decision, "otherwise")) changes.push_back(text(decision, "otherwise"));
+  return changes;
 }
 
 void add_advice(ReportPage& page, const JsonValue& decision) {
   if (text(decision, "verdict") == "go") return;
   page.section("What would change it");
-  const auto& advice = at(decision, "advice").elements;
-  for (const JsonValue& each : advice) page.item(text(each, "words"));
-  if (advice.empty() || hangs_on_start(decision)) page.item(std::string(without_advice(decision)));
+  for (const std::string& words : what_would_change(decision)) page.item(words);
 }
 
 void add_map(ReportPage& page, Result<std::string> map, std::string_view caption) {

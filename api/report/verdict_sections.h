@@ -1,7 +1,7 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "api/chart/report_page.h"
 #include "api/json/json_value.h"
@@ -12,10 +12,10 @@ namespace slipway::api {
 // What every page of a decided drive begins with: the verdict in its colour.
 void add_verdict_banner(ReportPage& page, const json::JsonValue& document);
 
-// What would change a verdict that is no GO where its decision has no advice that does.
-std::string_view without_advice(const json::JsonValue& decision);
+// What would change a verdict that is no GO, in words; nothing for a GO.
+std::vector<std::string> what_would_change(const json::JsonValue& decision);
 
-// What would change a verdict that is no GO; nothing for a GO. `decision` has the verdict and the advice.
+// The same as a section. `decision` has the verdict and the advice.
 void add_advice(ReportPage& page, const json::JsonValue& decision);
 
 // A map of an answer, or why there is none: an old answer's page is still whole without it.

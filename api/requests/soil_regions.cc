@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "api/files/catalogue.h"
-
 namespace slipway::api {
 namespace {
 
@@ -25,7 +23,7 @@ std::string RegionalSoil::name() const {
 }
 
 RegionalSoils soils_in_regions(const std::shared_ptr<const dem::SoilMap>& map,
-                               const std::vector<sim::Disc>& regions) {
+                               const std::vector<sim::Disc>& regions, const std::string& unknown_soil) {
   RegionalSoils result;
   for (const std::string& name : map->soils()) result.soils.push_back({name, {}});
   result.map = map;
@@ -44,10 +42,10 @@ RegionalSoils soils_in_regions(const std::shared_ptr<const dem::SoilMap>& map,
       known.push_back(soil || !in.empty() ? 1 : 0);
       std::int16_t value = static_cast<std::int16_t>(soil.value_or(0));
       if (!in.empty()) {
-        const std::string base = soil ? map->soils()[*soil] : std::string(kUnknownGround);
+        const std::string base = soil ? map->soils()[*soil] : unknown_soil;
         const auto [at, added] =
             index_of.emplace(std::pair{soil, in}, static_cast<std::int16_t>(result.soils.size()));
-        if (added) result.soils.push_back({base, std::move(in)});
+        if (added) result.soils.push_back({base, std::move(in), soil.has_value()});
         value = at->second;
       }
       classes.push_back(value);

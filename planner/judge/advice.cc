@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "planner/judge/deciding_draws.h"
 #include "planner/judge/drive_verdict.h"
@@ -46,6 +48,27 @@ Advice advice_at(Advice::Kind kind, double at_m, const Pose2& place) {
 // From some start it is no GO. Neither a beginning nor what is measured on the way is looked at from there.
 bool hangs_on_start(const DriveVerdict& verdict) {
   return verdict.starts && verdict.starts->count(Verdict::kGo) < verdict.starts->starts.size();
+}
+
+// What an operator can change for a rule of the day or the start; empty for a rule of the ground.
+std::string_view change_for(const JudgedRule& rule) {
+  struct Change {
+    std::string_view rule, words;
+  };
+  static constexpr std::array<Change, 8> kChanges{
+      {{"charge", "more charge"},
+       {"arrival", "a later arrival"},
+       {"sun", "another time of day"},
+       {"earth", "another time of day"},
+       {"light_left", "another time of day"},
+       {"motor_cold", "another time of day"},
+       {"motor_hot", "another time of day"},
+       {"start", "knowing better where the rover stands and how it is turned, before it drives"}}};
+  const auto* const found = std::find_if(kChanges.begin(), kChanges.end(),
+                                         [&](const Change& each) { return each.rule == rule.name; });
+  if (found == kChanges.end()) return {};
+  return rule.verdict == Verdict::kUnknown && rule.name != "start" ? "a longer table of the sky"
+                                                                   : found->words;
 }
 
 std::vector<sim::PathStation> beginning(const std::vector<sim::PathStation>& path, double length_m) {
@@ -115,6 +138,25 @@ std::optional<Advice> other_route(const std::vector<Route>& routes) {
   advice.words = fmt::format("take route {}, which is a GO: it costs {:.2f} where this one costs {:.2f}",
                              go->rank, go->cost, routes.front().cost);
   return advice;
+}
+
+void advise(std::initializer_list<std::optional<Advice>> found, int draws, DriveVerdict& verdict) {
+  for (const std::optional<Advice>& advice : found)
+    if (advice) verdict.advice.push_back(*advice);
+  if (verdict.verdict == Verdict::kGo || (!verdict.advice.empty() && !hangs_on_start(verdict))) return;
+  std::vector<std::string> changes;
+  for (const JudgedRule& rule : verdict.rules) {
+    if (rule.verdict == Verdict::kGo) continue;
+    std::string change(change_for(rule));
+    if (change.empty()) {
+      change = "another way or another goal (no shorter drive and no scout drive does)";
+      if (rule.verdict == Verdict::kUnknown && rule.over_draws && draws < kMostDraws)
+        change = fmt::format("more draws of the ground than {}, or {}", draws, change);
+    }
+    if (std::find(changes.begin(), changes.end(), change) == changes.end())
+      changes.push_back(std::move(change));
+  }
+  verdict.otherwise = fmt::format("{}", fmt::join(changes, ", and "));
 }
 
 }  // namespace slipway::planner

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -27,5 +28,9 @@ std::optional<Advice> scout_drive(const PlanProblem& problem, const sim::DrivePr
 
 // The first route that is a GO where the first is none.
 std::optional<Advice> other_route(const std::vector<Route>& routes);
+
+// Tells a drive's operator what was found, and where that is nothing what each rule that is no GO leaves to
+// change. `draws`: that the drive was judged by.
+void advise(std::initializer_list<std::optional<Advice>> found, int draws, DriveVerdict& verdict);
 
 }  // namespace slipway::planner

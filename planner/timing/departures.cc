@@ -6,7 +6,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/utc.h"
 #include "planner/timing/drive_in_time.h"
@@ -65,20 +67,76 @@ std::optional<std::int64_t> noon_of(const Departure& departure) {
   return std::nullopt;
 }
 
-// The moment nearest to `bad` at which the rules hold.
-std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad,
-                     const Progress& progress) {
+// The rules that do not hold, by their names.
+std::vector<std::string> broken_rules(const TimedDrive& drive) {
+  std::vector<std::string> names;
+  for (const JudgedRule& rule : drive.rules)
+    if (rule.verdict != Verdict::kGo) names.push_back(rule.name);
+  return names;
+}
+
+// Whether all of these hold.
+bool keeps(const TimedDrive& drive, const std::vector<std::string>& names) {
+  return std::all_of(drive.rules.begin(), drive.rules.end(), [&](const JudgedRule& rule) {
+    return rule.verdict == Verdict::kGo || std::find(names.begin(), names.end(), rule.name) == names.end();
+  });
+}
+
+// The moment nearest to `bad` at which the rules hold, or those of these names.
+std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad, const Progress& progress,
+                     const std::vector<std::string>* names = nullptr) {
   while (std::abs(bad - good) > kNarrowed_ms && !progress.cancelled()) {
     const std::int64_t middle = good + (bad - good) / 2;
-    (keeps_rules(drive.at(middle)) ? good : bad) = middle;
+    const TimedDrive timed = drive.at(middle);
+    ((names != nullptr ? keeps(timed, *names) : keeps_rules(timed)) ? good : bad) = middle;
   }
   return good;
+}
+
+// The window between two moments that break rules, where what breaks first holds before others break.
+std::optional<DepartureWindow> window_between(const DriveInTime& drive, const TimedDrive& before,
+                                              const TimedDrive& after, const Progress& progress) {
+  const std::vector<std::string> names = broken_rules(before);
+  if (!keeps(after, names)) return std::nullopt;
+  const std::int64_t from = edge_of(drive, after.departs_ms, before.departs_ms, progress, &names);
+  if (!keeps_rules(drive.at(from))) return std::nullopt;
+  return DepartureWindow{from, edge_of(drive, from, after.departs_ms, progress)};
 }
 
 struct WithHalt {
   ChargingHalt halt;
   TimedDrive drive;
 };
+
+// The shortest halt at a place, to a minute, with which the rules hold.
+std::optional<WithHalt> halt_at(const DriveInTime& drive, std::int64_t departs_ms, double at_m,
+                                double most_hours) {
+  const std::vector<std::string> charge{"charge"};
+  const auto halting = [&](double hours) {
+    return WithHalt{{at_m, hours}, drive.at(departs_ms, false, ChargingHalt{at_m, hours})};
+  };
+  double too_short = 0.0;
+  bool was_charged = false;
+  for (const double hours : kHaltHours) {
+    WithHalt with = halting(hours);
+    if (!was_charged && keeps(with.drive, charge)) {
+      was_charged = true;
+      WithHalt shortest = with;
+      while (60.0 * (shortest.halt.hours - too_short) > 1.0) {
+        WithHalt between = halting(0.5 * (too_short + shortest.halt.hours));
+        if (keeps(between.drive, charge))
+          shortest = std::move(between);
+        else
+          too_short = between.halt.hours;
+      }
+      if (keeps_rules(shortest.drive)) return shortest;
+    }
+    if (keeps_rules(with.drive)) return with;
+    if (!was_charged) too_short = hours;
+    if (hours > most_hours) break;
+  }
+  return std::nullopt;
+}
 
 std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, const Departure& departure,
                                   Progress& progress) {
@@ -89,17 +147,17 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, con
     const TimedDrive direct = drive.at(departure.from_ms + (steps > 0 ? k * (span_ms / steps) : 0));
     if (!lacks_charge_alone(direct)) continue;
     progress.report("looking for a halt to charge", static_cast<double>(k) / static_cast<double>(steps + 1));
-    for (int place = 0; place < kHaltPlaces; ++place)
-      for (const double hours : kHaltHours) {
-        if (progress.cancelled()) return std::nullopt;
-        // It can't come earlier than without a halt.
-        if (earliest && direct.arrives_ms + std::llround(3.6e6 * hours) >= earliest->drive.arrives_ms) break;
-        const ChargingHalt halt{length_m * place / kHaltPlaces, hours};
-        TimedDrive halting = drive.at(direct.departs_ms, false, halt);
-        if (!keeps_rules(halting)) continue;
-        earliest = WithHalt{halt, std::move(halting)};
-        break;
-      }
+    for (int place = 0; place < kHaltPlaces; ++place) {
+      if (progress.cancelled()) return std::nullopt;
+      // A longer one can't come earlier than the earliest.
+      const double most_hours =
+          earliest ? static_cast<double>(earliest->drive.arrives_ms - direct.arrives_ms) / 3.6e6
+                   : kHaltHours.back();
+      if (most_hours <= 0.0) break;
+      auto found = halt_at(drive, direct.departs_ms, length_m * place / kHaltPlaces, most_hours);
+      if (found && (!earliest || found->drive.arrives_ms < earliest->drive.arrives_ms))
+        earliest = std::move(found);
+    }
   }
   return earliest;
 }
@@ -139,21 +197,29 @@ Departures departures_of(const Departure& departure, const sim::RoverModel& rove
     return std::pair(broken(a), -a.charge_at_arrival_low) < std::pair(broken(b), -b.charge_at_arrival_low);
   };
   std::optional<TimedDrive> nearest;
-  std::optional<std::int64_t> before;  // the moment looked at before this one
-  bool held = false;                   // the rules, then
+  const auto consider = [&](const TimedDrive& timed) {
+    if (!nearest || is_nearer(timed, *nearest)) nearest = timed;
+  };
+  std::optional<TimedDrive> before;  // at the moment looked at before this one
+  bool held = false;                 // the rules, then
   for (std::int64_t k = 0; !progress.cancelled(); ++k) {
     const std::int64_t at = std::min(departure.from_ms + k * step_ms / looks, departure.to_ms);
     progress.report("looking for departures", static_cast<double>(at - departure.from_ms) / span_ms);
     TimedDrive timed = drive.at(at);
     const bool holds = keeps_rules(timed);
     if (holds && !held)
-      found.windows.push_back({before ? edge_of(drive, at, *before, progress) : at, at});
+      found.windows.push_back({before ? edge_of(drive, at, before->departs_ms, progress) : at, at});
     else if (!holds && held)
-      found.windows.back().to_ms = edge_of(drive, *before, at, progress);
+      found.windows.back().to_ms = edge_of(drive, before->departs_ms, at, progress);
+    else if (!holds && before)
+      if (const auto window = window_between(drive, *before, timed, progress)) {
+        found.windows.push_back(*window);
+        consider(drive.at(window->from_ms));
+      }
     if (holds) found.windows.back().to_ms = at;
     held = holds;
-    before = at;
-    if (!nearest || is_nearer(timed, *nearest)) nearest = timed;
+    before = timed;
+    consider(timed);
     const bool is_last = at >= departure.to_ms;
     if (k % looks == 0 || is_last) found.tried.push_back(std::move(timed));
     if (is_last) break;
@@ -185,9 +251,14 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (departures.halt) {
     std::string words = fmt::format(
-        "departing at {} the rover must wait for {:.1f} h at {:.1f} m to charge, without which no "
-        "departure keeps the rules of the day; its commands hold no wait",
-        utc_text(drive.departs_ms), departures.halt->hours, departures.halt->at_m);
+        "{} the rover must wait for {:.2f} h {} to charge, without which no departure keeps the rules of the "
+        "day; "
+        "its commands hold no wait",
+        departures.halt->at_m > 0.0 ? fmt::format("departing at {}", utc_text(drive.departs_ms))
+                                    : fmt::format("from {} on", utc_text(drive.departs_ms)),
+        departures.halt->hours,
+        departures.halt->at_m > 0.0 ? fmt::format("at {:.1f} m", departures.halt->at_m)
+                                    : std::string("where it stands, before it drives,"));
     const bool decides = verdict.verdict == Verdict::kGo;
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (!departures.windows.empty()) {

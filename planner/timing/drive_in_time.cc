@@ -193,6 +193,7 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     return air_c + most_k;
   };
   std::optional<double> over_before;  // the sun over the horizon, at the place before
+  double reached_m = 0.0;
   // `effort`: the motors' power over that on the mean soils; nothing where the rover stands.
   const auto spend = [&](const Place& place, double seconds, std::optional<double> effort) {
     const std::int64_t middle = after(now, 0.5 * seconds);
@@ -240,12 +241,14 @@ DriveInTime::Course DriveInTime::run(std::int64_t departs_ms, const Pace& pace,
     course.lit_s += lit * seconds;
     std::optional<double> motor_c;
     if (asks_of_motors) {
-      if (effort) look_at_motors(distance_m);
+      if (effort && seconds > 0.0) look_at_motors(reached_m);
       most_k = motor_->after(most_k, place.losses.most_w * effort.value_or(0.0), seconds);
       least_k = motor_->after(least_k, place.losses.least_w * effort.value_or(0.0), seconds);
     }
     now = after(now, seconds);
-    if (asks_of_motors && effort) motor_c = look_at_motors(distance_m);
+    reached_m = distance_m;
+    if (asks_of_motors && effort)
+      motor_c = seconds > 0.0 ? look_at_motors(distance_m) : air_of_motors_->at_c(now) + most_k;
     return TimedStation{distance_m, now,   now,           over,          is_lit,
                         in_w,       out_w, course.charge, course.charge, motor_c};
   };

@@ -84,7 +84,7 @@ ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravi
       end.c1 = soils.of(ground).c1;
       end.c2 = soils.of(ground).c2;
     }
-    end.breaks_a_limit = end.breaks_a_limit || rules.broken_by(station.stance, state, true);
+    end.breaks_a_limit = end.breaks_a_limit || rules.broken_by(station.stance, station.command, state, true);
     if (state.moving()) continue;
     end.immobilised_at_m = station.distance_m;
     break;

@@ -157,7 +157,7 @@ void DrawnDriver::drive(const PreparedStation& station, const StationState& stat
 
 void DrawnDriver::add(const PreparedStation& station, const StationState& state, double aside_m,
                       bool keep_states, DrawnDrive& drawn) const {
-  const bool bad = !state.moving() || station_rules_.broken_by(station.stance, state);
+  const bool bad = !state.moving() || station_rules_.broken_by(station.stance, station.command, state);
   drawn.breaks_a_limit |= bad;
   drawn.bad.push_back(bad);
   if (keep_states) {

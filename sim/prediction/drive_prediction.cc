@@ -200,7 +200,7 @@ class Predictor {
     DrivePrediction& p = prediction_;
     p.by_slip_curve |= state.by_slip_curve;
     p.max_tilt_rad.raise(state.attitude.tilt_rad(), s, kAlike);
-    p.max_slip_ratio.raise(std::abs(state.slip_ratio), s, kAlike);
+    if (!ready.command.turn_in_place) p.max_slip_ratio.raise(std::abs(state.slip_ratio), s, kAlike);
     p.max_current_a.raise(largest_current_a(state), s, kAlike);
     p.max_sinkage_m.raise(deepest_sinkage_m(state), s, kAlike);
     if (!embedded_) embedded_ = !follower_.add(ready, prepared_.stations.size(), state);

@@ -19,7 +19,7 @@ bool may_pass(double from, double to, double limit, double near) {
 
 bool may_pass_a_limit(const StationRules& rules, const Balanced& from, const Balanced& to, int halvings) {
   const bool moves = from.state.moving() && to.state.moving();
-  if (halvings == 0 && moves &&
+  if (halvings == 0 && moves && !to.ready.command.turn_in_place &&
       may_pass(std::abs(from.state.slip_ratio), std::abs(to.state.slip_ratio), rules.max_slip_ratio(),
                kNearOfSoil))
     return true;

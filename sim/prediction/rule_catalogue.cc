@@ -252,8 +252,9 @@ StationRules::StationRules(const RoverModel& rover, const DriveLimits& limits)
     if (row.at && row.limit && std::isfinite(limits.*row.limit)) active_.push_back({&row, limits.*row.limit});
 }
 
-bool StationRules::broken_by(const Stance& stance, const StationState& state, bool of_soil_alone) const {
-  if (std::abs(state.slip_ratio) >= max_slip_ratio_) return true;
+bool StationRules::broken_by(const Stance& stance, const DriveCommand& command, const StationState& state,
+                             bool of_soil_alone) const {
+  if (!command.turn_in_place && std::abs(state.slip_ratio) >= max_slip_ratio_) return true;
   return std::any_of(active_.begin(), active_.end(), [&](const Active& rule) {
     if (of_soil_alone && rule.row->of_shape && rule.row->rule != Rule::kTilt) return false;
     return rule.row->tripped_by(measure(rule, stance, state).value, rule.limit);

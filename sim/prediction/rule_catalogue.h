@@ -9,6 +9,7 @@
 
 #include "sim/prediction/drive_limits.h"
 #include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/drive_command.h"
 #include "sim/rover/rover_model.h"
 #include "sim/rover/stance.h"
 
@@ -105,9 +106,10 @@ class StationRules {
   Measured measure(const Active& rule, const Stance& stance, const StationState& state) const {
     return rule.row->at(rover_, stance, state);
   }
-  // Whether the motion at a station breaks a limit, its slip among them. `of_soil_alone` leaves out what
-  // hangs on the ground's shape, but for the tilt that the soil leans.
-  bool broken_by(const Stance& stance, const StationState& state, bool of_soil_alone = false) const;
+  // Whether the motion at a station breaks a limit, its slip among them; a turn in place has no slip on the
+  // way. `of_soil_alone` leaves out what hangs on the ground's shape, but for the tilt that the soil leans.
+  bool broken_by(const Stance& stance, const DriveCommand& command, const StationState& state,
+                 bool of_soil_alone = false) const;
   double max_slip_ratio() const { return max_slip_ratio_; }
 
  private:

@@ -193,8 +193,8 @@ LaneForces<Pack> one_wheel_closed_or_not(const Laws& laws, const WheelNumbers& n
   const auto forces = [&](const WheelValues<Pack>& met, const ContactAngles<Pack>& at) {
     return one_wheel_by(laws, met, at, parts);
   };
-  if (!parts.closures) return forces(in, contact_angles(in));
-  return with_closures(in, in_every_lane<ClosureValues>(numbers.closures), forces);
+  if (!parts.closures) return dissipating(in, forces(in, contact_angles(in)));
+  return dissipating(in, with_closures(in, in_every_lane<ClosureValues>(numbers.closures), forces));
 }
 
 template <class Laws>
@@ -204,8 +204,8 @@ LaneForces<Pack> lanes_closed_or_not(const Laws& laws, const std::array<const Wh
   const auto forces = [&](const WheelValues<Pack>& met, const ContactAngles<Pack>& at) {
     return lanes_by(laws, met, at, parts);
   };
-  if (!parts.closures) return forces(in, contact_angles(in));
-  return with_closures(in, in_lanes<ClosureValues>(wheels), forces);
+  if (!parts.closures) return dissipating(in, forces(in, contact_angles(in)));
+  return dissipating(in, with_closures(in, in_lanes<ClosureValues>(wheels), forces));
 }
 
 void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {

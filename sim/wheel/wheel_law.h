@@ -258,4 +258,13 @@ LaneForces<V> total_forces(const WheelValues<V>& in, const ContactAngles<V>& at,
   return f;
 }
 
+// A wheel gives its axle no more than the ground gives the wheel: T w >= F_x v_x + F_y v_y. Thrust of tall
+// cleats and friction on a wall act at arms that do not turn at the speed at which soil slides there, and
+// would break this.
+template <class V>
+LaneForces<V> dissipating(const WheelValues<V>& in, LaneForces<V> f) {
+  f.torque = max(f.torque, in.radius * (in.forward * f.pull + in.leftward * f.lateral));
+  return f;
+}
+
 }  // namespace slipway::sim

@@ -80,13 +80,36 @@ TEST(Effects, ASoilInAPatchHasANameOfItsOwn) {
   const auto map = std::make_shared<const dem::SoilMap>(grid, std::vector<std::int16_t>{1, 1, 0, 1, 1, 0},
                                                         std::vector<std::uint8_t>{1, 1, 0, 1, 1, 0},
                                                         std::vector<dem::SoilClass>{{1, "sand", "loose"}});
-  const RegionalSoils soils = soils_in_regions(map, {{2.0, 1.0, 0.8}});
+  const RegionalSoils soils = soils_in_regions(map, {{2.0, 1.0, 0.8}}, "dust");
   ASSERT_EQ(soils.soils.size(), 3u);
   EXPECT_EQ(soils.soils[0].name(), "loose");
   EXPECT_EQ(soils.map->soils()[*soils.map->soil_at(0.5, 0.5)], "loose");
   EXPECT_EQ(soils.map->soils()[*soils.map->soil_at(1.5, 0.5)], "loose@place_1");
-  EXPECT_EQ(soils.map->soils()[*soils.map->soil_at(2.5, 1.5)], "unknown_ground@place_1");
-  EXPECT_EQ(soils_in_regions(map, {}).map, map) << "without regions it is the same map";
+  EXPECT_EQ(soils.map->soils()[*soils.map->soil_at(2.5, 1.5)], "dust@place_1");
+  EXPECT_EQ(soils_in_regions(map, {}, "dust").map, map) << "without regions it is the same map";
+}
+
+// A patch that weakens nothing leaves the soil that the request assumes, and one that weakens makes it no
+// firmer.
+TEST(Effects, APatchIsOfTheSoilThatTheRequestAssumes) {
+  PredictionRequest request = path_request();
+  request.path = {{115.0, 40.0, {}}, {115.0, 46.0, {}}};  // where the map names no soil
+  const auto sinkage_m = [&](const char* soil, std::optional<double> weakening) {
+    request.drive.unknown_soil = soil;
+    request.drive.effects.clear();
+    if (weakening)
+      request.drive.effects = {{"soft_patch",
+                                {{"x_m", request.path[0].x_m},
+                                 {"y_m", request.path[0].y_m},
+                                 {"radius_m", 900.0},
+                                 {"weakening", *weakening}}}};
+    return predicted(request).max_sinkage_m.value;
+  };
+  for (const char* soil : {"jlu_mars_2_loose", "sandy_loam"}) {
+    const double plain = sinkage_m(soil, {});
+    EXPECT_NEAR(sinkage_m(soil, 0.0), plain, 1e-6 * plain) << soil;
+    EXPECT_GT(sinkage_m(soil, 0.3), plain) << soil;
+  }
 }
 
 TEST(Effects, AWheelThatTheRoverDoesNotHaveIsRefusedByItsNumber) {

@@ -104,7 +104,16 @@ TEST(Sol, TheWayBackHasTheDayThatIsLeft) {
   ASSERT_TRUE(has(sol, "worst"));
   ASSERT_TRUE(has(sol, "back_out"));
   const JsonValue& back = at(sol, "back_out");
-  const JsonValue& asked = at(at(back, "request"), "departure");
+  // The route's own commands, the last first.
+  const JsonValue& request = at(back, "request");
+  double back_m = 0.0;
+  for (const JsonValue& command : at(request, "commands").elements)
+    back_m += has(command, "drive_m") ? number(command, "drive_m")
+              : has(command, "arc_m") ? number(command, "arc_m")
+                                      : 0.0;
+  EXPECT_NEAR(back_m, number(at(sol, "worst"), "at_m"), 0.01);
+  EXPECT_TRUE(at(request, "backwards").boolean);
+  const JsonValue& asked = at(request, "departure");
   EXPECT_EQ(text(asked, "from"), text(asked, "to"));
   EXPECT_FALSE(has(asked, "arrive_by"));
   const JsonValue& departures = at(decision_of(sol), "departures");

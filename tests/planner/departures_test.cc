@@ -225,6 +225,50 @@ TEST(Departures, AHaltInTheSunLetsTheBatteryCharge) {
   EXPECT_GE(found.drive.least_charge_low, 0.4);
 }
 
+// It is as long as the charge needs, to a minute: a longer one may come too late.
+TEST(Departures, AHaltIsNoLongerThanItMustBe) {
+  Departure departure = a_day();
+  departure.from_ms = departure.to_ms = 7 * kHour_ms;
+  departure.charge = 0.45;
+  departure.rules.min_charge = 0.4;
+  sim::RoverModel hungry = kOnCells;
+  hungry.power->driving_w = 160.0;
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures free = departures_of(departure, hungry, prediction, progress);
+  ASSERT_TRUE(free.halt);
+  EXPECT_LT(free.drive.least_charge_low, 0.407);  // a minute gains 0.006
+  departure.rules.arrive_by = free.drive.arrives_late_ms + 60'000;
+  const Departures in_time = departures_of(departure, hungry, prediction, progress);
+  ASSERT_TRUE(in_time.halt);
+  EXPECT_NEAR(in_time.halt->hours, free.halt->hours, 1.0 / 60.0);
+  departure.rules.arrive_by = free.drive.arrives_late_ms - 120'000;
+  EXPECT_FALSE(departures_of(departure, hungry, prediction, progress).is_kept());
+}
+
+// The sun must stand high enough, and the rover must be there in time: half a minute lies between, wherever
+// the moments fall at which the rules are looked at.
+TEST(Departures, AWindowBetweenTwoLooksIsFound) {
+  Departure departure = a_day();
+  departure.rules.min_sun_rad = rad_from_deg(10.0);
+  NoProgress progress;
+  const sim::DrivePrediction prediction = two_hours();
+  const Departures all_day = departures_of(departure, kUnpowered, prediction, progress);
+  ASSERT_EQ(all_day.windows.size(), 1U);
+  const std::int64_t opens = all_day.windows[0].from_ms;
+  departure.rules.arrive_by =
+      opens + 30'000 + DriveInTime(departure, kUnpowered, prediction, kNoProgress).at(opens).arrives_late_ms -
+      opens;
+  for (const std::int64_t earlier : {3'600'000, 3'615'000, 3'629'000, 3'650'000}) {
+    departure.from_ms = opens - earlier;
+    const Departures found = departures_of(departure, kUnpowered, prediction, progress);
+    ASSERT_EQ(found.windows.size(), 1U) << earlier;
+    EXPECT_NEAR(static_cast<double>(found.windows[0].from_ms - opens), 0.0, 1500.0) << earlier;
+    EXPECT_NEAR(static_cast<double>(found.windows[0].to_ms - opens), 30'000.0, 1500.0) << earlier;
+    EXPECT_TRUE(holds(found.drive)) << earlier;
+  }
+}
+
 TEST(Departures, WhereTheSkyIsNotKnownItsRulesAreOpen) {
   Departure departure = a_day();
   departure.sky = std::make_shared<sky::SkyTable>(

@@ -238,10 +238,22 @@ TEST(RuleCatalogue, TheSuspensionIsItsLargestAngle) {
   stance.belly_clearance_m = 1.0;
   StationState state;
   state.wheels = PerWheel<WheelState>(kRover.wheels.size());
-  EXPECT_FALSE(rules.broken_by(stance, state, false));
+  EXPECT_FALSE(rules.broken_by(stance, {}, state, false));
   stance.bogie_rad[1] = -0.3;
-  EXPECT_TRUE(rules.broken_by(stance, state, false));
-  EXPECT_FALSE(rules.broken_by(stance, state, true)) << "the ground's shape, whatever the soil";
+  EXPECT_TRUE(rules.broken_by(stance, {}, state, false));
+  EXPECT_FALSE(rules.broken_by(stance, {}, state, true)) << "the ground's shape, whatever the soil";
+}
+
+// Wheels that skid as the rover turns on the spot have a slip of yaw, which is none on the way.
+TEST(RuleCatalogue, ATurnInPlaceHasNoSlipOnTheWay) {
+  const StationRules rules(kRover, kLimits);
+  Stance stance;
+  stance.belly_clearance_m = 1.0;
+  StationState state;
+  state.wheels = PerWheel<WheelState>(kRover.wheels.size());
+  state.slip_ratio = 0.7;
+  EXPECT_TRUE(rules.broken_by(stance, {}, state));
+  EXPECT_FALSE(rules.broken_by(stance, {.turn_in_place = true}, state));
 }
 
 // What an operator may change never makes a drive worse by being stricter on the ground, or less strict on

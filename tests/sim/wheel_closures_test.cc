@@ -258,6 +258,27 @@ TEST(WheelLaw, NoPullJumps) {
     }
 }
 
+// Cleats as tall as half of the rim in slight skid, and a wall whose friction is that of several wheels.
+TEST(WheelLaw, GivesTheAxleNoMoreThanTheGroundGives) {
+  WheelGeometry tall = cleated();
+  tall.grousers.height_m = 0.05, tall.grousers.mobilisation = 0.02, tall.grousers.surcharge = 1.0;
+  Soil walled = closed_sand();
+  walled.ploughing.wall = 60.0, walled.ploughing.wall_friction = 1.5;
+  int at_the_limit = 0;
+  for (const auto& [wheel, soil] : {std::pair{tall, sandy_loam()}, {cleated(), walled}, {tall, walled}})
+    for (double forward = 0.02; forward < 2.0; forward += 0.02)
+      for (const double sideways : {0.0, 0.3 * forward, -forward}) {
+        const auto theta = balanced_entry_angle_rad(wheel, soil, 60.0, {forward, sideways});
+        if (!theta) continue;
+        const WheelForces f = wheel_forces(wheel, soil, *theta, {forward, sideways});
+        const double lost_n =
+            f.torque_nm / wheel.radius_m - forward * f.drawbar_pull_n - sideways * f.lateral_n;
+        EXPECT_GT(lost_n, -1e-6) << forward << " " << sideways;
+        at_the_limit += lost_n < 1e-6;
+      }
+  EXPECT_GT(at_the_limit, 0);
+}
+
 TEST(InclinedLoad, TakesNothingFromAWheelThatDrivesAndMostFromALockedOne) {
   EXPECT_EQ(inclined_load_share(2.0, 1.0, 1.0), 1.0);
   EXPECT_EQ(inclined_load_share(2.0, 0.2, 0.2), 1.0);

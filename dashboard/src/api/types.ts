@@ -3287,6 +3287,8 @@ export interface components {
             rules: components["schemas"]["JudgedRule"][];
             /** @description What would make it better; none of a GO */
             advice: components["schemas"]["Advice"][];
+            /** @description In words what else could make it better: what each rule that is no GO leaves to change. Where nothing was found that does, or the drive hangs on where it starts */
+            otherwise?: string;
             departures?: components["schemas"]["Departures"];
             starts?: components["schemas"]["DisplacedStarts"];
         };

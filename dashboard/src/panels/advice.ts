@@ -29,7 +29,7 @@ function act(result: Result, advice: Advice, show: (from_m: number, to_m: number
 }
 
 export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLElement[] {
-  const { verdict, reasons, rules, advice, departures } = route.decision;
+  const { verdict, reasons, rules, advice, otherwise } = route.decision;
   const show = (from_m: number, to_m: number) => {
     store.set({ hover_m: from_m });
     map.showStretch(from_m, to_m);
@@ -45,9 +45,7 @@ export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLE
     h("ul", { class: "reasons", "data-reasons": verdict }, reasons.map(reason)),
     ...(verdict === "go" ? [] : [
       h("h3", {}, "What would change it"),
-      advice.length > 0 ? h("ul", { class: "advice" }, advice.map((a) => h("li", {}, `${sentence(a.words)}.`, act(result, a, show)))) : h("p", { class: "advice" }, departures && !departures.best
-        ? "Another time, more charge or a longer table of the sky: of no departure that was asked for is it known that it keeps the rules of the day, nor of a shorter drive."
-        : "No shorter drive, other route or scout drive was found to: another way or goal."),
+      h("ul", { class: "advice" }, [...advice.map((a) => h("li", {}, `${sentence(a.words)}.`, act(result, a, show))), ...(otherwise ? [h("li", {}, `${sentence(otherwise)}.`)] : [])]),
     ]),
   ];
 }

@@ -187,13 +187,10 @@ std::string verdict_line(const JsonValue& decision) {
 }
 
 std::string advice_lines(const JsonValue& decision) {
-  const JsonValue& advice = at(decision, "advice");
   if (text(decision, "verdict") == "go") return {};
-  if (advice.elements.empty())
-    return fmt::format("What would change it: {}\n", api::without_advice(decision));
   std::string out;
-  for (const JsonValue& each : advice.elements)
-    out += fmt::format("What would change it: {}\n", text(each, "words"));
+  for (const std::string& words : api::what_would_change(decision))
+    out += fmt::format("What would change it: {}\n", words);
   return out;
 }
 
