@@ -35,6 +35,7 @@ constexpr Effect kBulldozing{
     .reference = "[Terzaghi 1943]; ARTEMIS leaves the front out, Zhurong section 3.1 names it",
     .fields = kFields,
     .on_soil = &change,
+    .twin = "plough_front",
     .variants = &variants,
     .has_many_forms = true,
     .hidden = &hidden};

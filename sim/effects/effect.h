@@ -78,6 +78,8 @@ struct Effect {
   // Physics: what it changes; null where it leaves rover or soil alone.
   void (*on_rover)(std::span<const double> values, RoverModel& rover) = nullptr;
   void (*on_soil)(std::span<const double> values, Soil& soil) = nullptr;
+  // The optional number of a soil that stands for the same force by another equation; empty where none does.
+  std::string_view twin = {};
   // The place in which on_soil is at work; null: everywhere.
   Disc (*region)(std::span<const double> values) = nullptr;
   // The field that holds the number of the wheel that it acts on (-1: all of them), "wheel" in answers of the

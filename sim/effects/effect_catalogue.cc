@@ -61,6 +61,32 @@ const SoilField* field_of_its_own(const Effect& effect, std::size_t number, cons
   return nullptr;
 }
 
+// The soil with all effects but one.
+Soil with_others(std::span<const EffectSetting> settings, std::string_view but, Soil soil) {
+  for_each_on(settings, [&](const Effect& effect, const std::vector<double>& values) {
+    if (effect.name != but && effect.on_soil != nullptr && !effect.region) effect.on_soil(values, soil);
+  });
+  return soil;
+}
+
+// Where the soil has the effect's force by another equation, and nobody stated how much of the effect is
+// meant.
+std::optional<std::string> twin_fault(const Effect& effect, const EffectSetting& setting, Soil met,
+                                      std::string_view soil_name) {
+  const std::string stated(effect.fields.front().name);
+  if (effect.twin.empty() || setting.parameters.contains(stated)) return std::nullopt;
+  const std::span<const SoilField> fields = soil_fields();
+  const auto twin = std::find_if(fields.begin(), fields.end(),
+                                 [&](const SoilField& each) { return each.field.name == effect.twin; });
+  Soil bare;
+  if (twin->number(met) == twin->number(bare)) return std::nullopt;
+  return fmt::format(
+      "{} would be added to the same force in soil {} ({} = {:g}, by the soil or another effect): state {} "
+      "to "
+      "add to it, or leave the effect out",
+      effect.name, soil_name, effect.twin, twin->number(met), stated);
+}
+
 }  // namespace
 
 const Effect* find_effect(std::string_view name) {
@@ -133,6 +159,8 @@ std::vector<Fault> doubled(std::span<const EffectSetting> settings, const Soil& 
                effect->name, field.name, field.initial, soil_name, own->field.name, own->number(copy),
                field.name)});
     }
+    if (auto twin = twin_fault(*effect, settings[i], with_others(settings, effect->name, soil), soil_name))
+      faults.push_back({fmt::format("/{}/name", i), *std::move(twin)});
   }
   return faults;
 }

@@ -47,6 +47,7 @@ constexpr Effect kSideBulldozing{
     .reference = "ARTEMIS eq. 12 to 14, 19; [Ishigami et al. 2007]",
     .fields = kFields,
     .on_soil = &change,
+    .twin = "plough_wall",
     .variants = &variants,
     .has_many_forms = true,
     .hidden = &hidden};

@@ -375,6 +375,13 @@ TEST(ClosureEffects, AreNotAddedByDefaultToASoilThatHasThem) {
   EXPECT_EQ(refused("digging", {}, sand), 2U);
   EXPECT_EQ(refused("inclined_load", {}, sand), 1U);
   EXPECT_EQ(refused("slip_directed_shear", {}, sand), 0U);  // the soil's own is all of it
+  // The same force by other equations.
+  EXPECT_EQ(refused("bulldozing", {}, sand), 1U);
+  EXPECT_EQ(refused("bulldozing", {{"share", 0.5}}, sand), 0U);
+  EXPECT_EQ(refused("side_bulldozing", {}, sand), 1U);
+  const EffectSetting both[] = {{.name = "bulldozing", .parameters = {}},
+                                {.name = "ploughing", .parameters = {}}};
+  EXPECT_EQ(doubled(both, sandy_loam(), "loam").size(), 1U);
   for (const Effect& effect : effect_catalogue())
     EXPECT_EQ(refused(std::string(effect.name).c_str(), {}, sandy_loam()), 0U) << effect.name;
 }
