@@ -43,11 +43,14 @@ std::string_view plain_name(std::string_view rule) {
   return found == kNames.end() ? rule : found->second;
 }
 
-// Arrivals are told to the minute, the later one.
+// Arrivals are told to the minute, the later one, and to the second where that would be behind a limit they
+// keep.
 std::string arrival_words(std::int64_t usual_ms, std::int64_t slow_ms, std::int64_t limit_ms) {
-  return fmt::format("the rover arrives at {}, at the slow pace at {}, {} {} the limit of {}",
-                     utc_words(minute_after(usual_ms)), utc_words(minute_after(slow_ms)),
-                     span_words(1e-3 * static_cast<double>(limit_ms - slow_ms)),
+  const auto told = [&](std::int64_t ms) {
+    return utc_words(ms <= limit_ms && minute_after(ms) > limit_ms ? ms : minute_after(ms));
+  };
+  return fmt::format("the rover arrives at {}, at the slow pace at {}, {} {} the limit of {}", told(usual_ms),
+                     told(slow_ms), span_words(1e-3 * static_cast<double>(limit_ms - slow_ms)),
                      slow_ms > limit_ms ? "after" : "before", utc_words(limit_ms));
 }
 

@@ -425,6 +425,8 @@ TEST(DriveInTime, RulesAreToldInPlainWords) {
       std::string::npos)
       << kept;
   EXPECT_NE(words_of(9 * kHour_ms + 45'000).find("15 s after the limit of"), std::string::npos);
+  EXPECT_NE(words_of(9 * kHour_ms + 20'000).find("at the slow pace at 1970-01-01 12:00:20 UTC, 10 s before"),
+            std::string::npos);
   departure.rules = {};
   departure.rules.min_sun_rad = rad_from_deg(20.0);
   NoProgress progress;
