@@ -30,6 +30,20 @@ std::int64_t midnight_near(double utc_ms, double east_longitude_rad) {
   return std::llround(utc_ms);
 }
 
+std::vector<Fault> faults_of(const dem::Extent& map, double x_m, double y_m, std::int64_t from_ms,
+                             std::optional<std::int64_t> to_ms) {
+  std::vector<Fault> faults;
+  if (!map.contains(x_m, y_m))
+    faults.push_back(
+        {"/place",
+         fmt::format("({:.10g}, {:.10g}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m", x_m,
+                     y_m, map.west_m, map.east_m, map.south_m, map.north_m)});
+  if (auto why = sky::why_not_known(from_ms)) faults.push_back({"/from", *std::move(why)});
+  if (to_ms)
+    if (auto why = sky::why_not_known(*to_ms)) faults.push_back({"/to", *std::move(why)});
+  return faults;
+}
+
 }  // namespace
 
 void write_bearing(json::Writer& w, std::string_view key, const sky::Bearing& bearing) {
@@ -55,14 +69,15 @@ void write_sky_moment(json::Writer& w, const SkyMoment& moment) {
 
 Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::int64_t from_ms,
                           std::optional<std::int64_t> to_ms) {
-  if (auto why = why_no_sky(site)) return fail(ErrorCode::kInvalidRequest, *std::move(why));
-  if (auto why = sky::why_not_known(from_ms)) return fail(ErrorCode::kInvalidRequest, *std::move(why));
+  if (auto why = why_no_sky(site)) return fail(ErrorCode::kInvalidRequest, *why, {{"/name", *why}});
   const dem::GridGeometry& geometry = site.info().geometry;
-  if (!geometry.extent().contains(x_m, y_m))
-    return fail(ErrorCode::kOffMap, fmt::format("({:g}, {:g}) lies off the map", x_m, y_m));
+  if (auto faults = faults_of(geometry.extent(), x_m, y_m, from_ms, to_ms); !faults.empty())
+    return fail(geometry.extent().contains(x_m, y_m) ? ErrorCode::kInvalidRequest : ErrorCode::kOffMap,
+                "There is no sky over this place at this time.", std::move(faults));
   const auto degrees = site.degrees_at({x_m, y_m});
   if (!degrees)
-    return fail(ErrorCode::kInvalidRequest, "the place has no longitude and latitude on this map");
+    return fail(ErrorCode::kInvalidRequest, "The place has no longitude and latitude.",
+                {{"/place", "has no longitude and latitude on this map"}});
   if (!to_ms) {
     const double east = rad_from_deg(degrees->x);
     const double since_h = sky::mars_time(from_ms, east).true_solar_h;
@@ -84,7 +99,10 @@ Result<PlaceSky> sky_over(const TerrainSite& site, double x_m, double y_m, std::
     PlaceSky::Seen seen{sky_moment(from_ms + std::llround(span_ms * k / steps), *degrees, north)};
     const auto horizon_rad = (*horizon)->elevation_rad(x_m, y_m, 0.0, seen.moment.sun.azimuth_rad);
     if (!horizon_rad)
-      return fail(ErrorCode::kNoData, fmt::format("the terrain has no height at ({:g}, {:g})", x_m, y_m));
+      return fail(
+          ErrorCode::kNoData, "There is no ground.",
+          {{"/place",
+            fmt::format("({:.10g}, {:.10g}) m has no height: the terrain is not known there", x_m, y_m)}});
     seen.horizon_rad = std::max(0.0, *horizon_rad);
     seen.is_lit = seen.moment.sun.elevation_rad > seen.horizon_rad;
     sky.moments.push_back(seen);

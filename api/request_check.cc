@@ -19,6 +19,7 @@
 #include "planner/search/plan_faults.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
+#include "sky/mars_time.h"
 
 namespace slipway::api {
 RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults)
@@ -170,24 +171,41 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
 }
 
 void RequestCheck::departure(const DriveAssumptions& drive) {
-  if (!drive.departure || already_faulty("/departure")) return;
-  if (site_ != nullptr && drive.departure->table.empty())
+  if (!drive.departure) return;
+  const DepartureRequest& of = *drive.departure;
+  if (site_ != nullptr && of.table.empty() && !already_faulty("/departure/sky")) {
     if (const auto why = why_no_sky(*site_))
       add(ErrorCode::kInvalidRequest, "/departure/sky",
           *why + ": give it as a table of moments, each with at, sun_azimuth_deg and sun_elevation_deg");
+    else
+      computed_sky(of);
+  }
+  if (site_ != nullptr && site_->info().body == "Moon" && of.optical_depth > 0.0)
+    add(ErrorCode::kInvalidRequest, "/departure/optical_depth",
+        "is of an atmosphere, which the Moon has not: leave it out");
   if (rover_ == nullptr || rover_->power) return;
-  const DepartureRequest& of = *drive.departure;
   for (const auto& [given, key] : {std::pair{of.rules.min_charge.has_value(), "min_charge_percent"},
                                    {of.charge != 1.0, "charge_percent"},
                                    {of.optical_depth != 0.0, "optical_depth"}})
-    if (given)
+    if (given && !already_faulty(fmt::format("/departure/{}", key)))
       add(ErrorCode::kInvalidRequest, fmt::format("/departure/{}", key),
           fmt::format("the file of {} has no power, of which a charge could be told", rover_->name));
-  if (of.air && !rover_->drive.thermal_resistance_k_w)
+  if (of.air && !already_faulty("/departure/air") && !rover_->drive.thermal_resistance_k_w)
     add(ErrorCode::kInvalidRequest, "/departure/air",
         fmt::format(
             "the file of {} has neither power with heaters nor a thermal_resistance_k_w of its motors",
             rover_->name));
+}
+
+// Sun and Earth are computed at the departures.
+void RequestCheck::computed_sky(const DepartureRequest& departure) {
+  for (const auto& [at_ms, key] : {std::pair{departure.from_ms, "from"}, {departure.to_ms, "to"}}) {
+    const std::string pointer = fmt::format("/departure/{}", key);
+    auto why = sky::why_not_known(at_ms);
+    if (!why || already_faulty(pointer)) continue;
+    add(ErrorCode::kInvalidRequest, pointer, *std::move(why));
+    if (departure.to_ms == departure.from_ms) return;
+  }
 }
 
 void RequestCheck::failed_wheels(const DriveAssumptions& drive) {

@@ -45,6 +45,7 @@ class RequestCheck {
  private:
   void failed_wheels(const DriveAssumptions& drive);
   void drive_so_far(const DriveAssumptions& drive);
+  void computed_sky(const DepartureRequest& departure);
   void departure(const DriveAssumptions& drive);
   void relief(const DriveAssumptions& drive);
   void doubled_closures(const DriveAssumptions& drive);

@@ -79,7 +79,7 @@ std::optional<PlaceOnWay> place_when_time_is_over(const planner::Departures& dep
     if (at.late_ms <= *rules.arrive_by) last = &at;
   if (last == &timed.stations.back()) return std::nullopt;  // the sky is not known for as long
   return place_at(drive, last->distance_m,
-                  fmt::format("here the rover is at the slow pace at {}", utc_text(*rules.arrive_by)));
+                  fmt::format("here the rover is at the slow pace at {}", utc_words(*rules.arrive_by)));
 }
 
 // The day of a way that begins where a drive is at the slow pace, with what is then left in the battery. It

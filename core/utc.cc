@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 namespace slipway {
@@ -14,6 +15,26 @@ std::string utc_text(std::int64_t ms) {
   const std::int64_t part = (ms % kPerSecond + kPerSecond) % kPerSecond;
   const auto seconds = static_cast<std::time_t>((ms - part) / kPerSecond);
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), part);
+}
+
+std::string utc_words(std::int64_t ms) {
+  using std::chrono::milliseconds, std::chrono::seconds;
+  const std::int64_t rounded_s = std::chrono::round<seconds>(milliseconds(ms)).count();
+  const std::string text = utc_text(1000 * rounded_s);  // 2026-07-01T12:00:17.000Z
+  return fmt::format("{} {} UTC", text.substr(0, 10), text.substr(11, rounded_s % 60 == 0 ? 5 : 8));
+}
+
+std::int64_t minute_after(std::int64_t ms) {
+  using std::chrono::milliseconds, std::chrono::minutes;
+  return milliseconds(std::chrono::ceil<minutes>(milliseconds(ms))).count();
+}
+
+std::string span_words(double seconds) {
+  constexpr double kMinute_s = 60.0, kHour_s = 3600.0;
+  const double s = std::abs(seconds);
+  if (s < 2.0 * kMinute_s) return fmt::format("{:.0f} s", std::floor(s));
+  if (s < 2.0 * kHour_s) return fmt::format("{:.0f} min", std::floor(s / kMinute_s));
+  return fmt::format("{:.1f} h", std::floor(10.0 * s / kHour_s) / 10.0);
 }
 
 std::optional<std::int64_t> utc_of_text(std::string_view text) {

@@ -14,7 +14,7 @@ constexpr std::string_view kStyle = R"css(
 :root{color-scheme:light dark}
 body{margin:0;background:#f4f4f2;color:#222;font:16px/1.5 system-ui,sans-serif}
 main{max-width:1240px;margin:0 auto;padding:24px 28px 48px;background:#fff}
-h1{font-size:1.7rem;margin:0 0 .6rem}
+h1{font-size:1.7rem;margin:0 0 .6rem;overflow-wrap:anywhere}
 h2{font-size:1.25rem;margin:2.2rem 0 .5rem;padding-top:.6rem;border-top:1px solid #ddd}
 p,ul{max-width:62rem}
 p{margin:.6rem 0}
@@ -35,6 +35,7 @@ code{font-size:.92em;overflow-wrap:anywhere;background:#f0f0ee;padding:0 .2em}
 @media screen and (prefers-color-scheme:dark){body{background:#111;color:#ddd}main{background:#1b1b1b}
 h2{border-top-color:#444}a{color:#7cc4ff}th,td{border-bottom-color:#333}figcaption{color:#aaa}code{background:#2a2a2a}
 svg{border-radius:4px}}
+@media screen and (max-width:1000px){main{padding:16px 14px 40px}.banner{font-size:2rem}figure svg{max-width:none}}
 @page{size:A4;margin:11mm}
 @media print{:root{font-size:8.2pt}body,main{background:#fff;padding:0}body{font-size:1rem;line-height:1.3}main{max-width:none}
 .wide{overflow:visible;margin:1mm 0;break-inside:avoid}.banner{font-size:22pt;padding:2mm 4mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}

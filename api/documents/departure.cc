@@ -42,7 +42,13 @@ void read_rules(ObjectReader& object, planner::DepartureRules& rules) {
 
 // `has_times`: the first and the last departure are known.
 void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure) {
-  const std::vector<Element> moments = object.list("sky", kOptional, {2, RequestLimits::kSkyMoments});
+  const std::vector<Element> moments = object.list("sky", kOptional, {0, RequestLimits::kSkyMoments});
+  // The rows of a list that is too short are read all the same, so that no fault hides another.
+  const JsonValue* const given = object.member("sky", kOptional);
+  const bool is_short = given != nullptr && given->is(JsonValue::Kind::kArray) && given->elements.size() < 2;
+  if (is_short)
+    object.fault("sky", fmt::format("sky has {} elements, must have {} to {}", given->elements.size(), 2,
+                                    RequestLimits::kSkyMoments));
   const std::size_t before = object.faults().size();
   std::size_t with_earth = 0;
   for (const Element& element : moments) {
@@ -77,7 +83,7 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
     }
     departure.table.push_back(sample);
   }
-  if (object.faults().size() != before || moments.empty()) return;
+  if (object.faults().size() != before || is_short || moments.empty()) return;
   if (with_earth != 0 && with_earth != moments.size())
     object.fault("sky", "all moments have the Earth's direction, or none");
   if (departure.rules.min_earth_rad && with_earth == 0)
@@ -87,8 +93,8 @@ void read_sky(ObjectReader& object, bool has_times, DepartureRequest& departure)
     object.fault(
         "sky",
         fmt::format("must cover the departures: its moments run from {} to {}, the departures from {} to {}",
-                    utc_text(departure.table.front().utc_ms), utc_text(departure.table.back().utc_ms),
-                    utc_text(departure.from_ms), utc_text(departure.to_ms)));
+                    utc_words(departure.table.front().utc_ms), utc_words(departure.table.back().utc_ms),
+                    utc_words(departure.from_ms), utc_words(departure.to_ms)));
 }
 
 void write_time(Writer& w, std::string_view key, std::int64_t ms) {
@@ -106,10 +112,13 @@ void write_drive(Writer& w, const planner::TimedDrive& drive) {
   w.significant("lit_share", drive.lit_share);
   w.significant("gained_wh", drive.gained_wh).significant("used_wh", drive.used_wh);
   w.significant("spilled_wh", drive.spilled_wh);
-  std::vector<std::string> broken;
-  for (const planner::JudgedRule& rule : drive.rules)
-    if (rule.verdict != planner::Verdict::kGo) broken.push_back(rule.name);
-  w.texts("broken", broken);
+  const auto names_of = [&](planner::Verdict verdict) {
+    std::vector<std::string> names;
+    for (const planner::JudgedRule& rule : drive.rules)
+      if (rule.verdict == verdict) names.push_back(rule.name);
+    return names;
+  };
+  w.texts("broken", names_of(planner::Verdict::kNoGo)).texts("open", names_of(planner::Verdict::kUnknown));
 }
 
 void write_drive_with_stations(Writer& w, const planner::TimedDrive& drive) {

@@ -52,8 +52,9 @@ void write_command(Writer& w, const planner::DriveStep& step) {
 }
 
 // What a plan's request has and a check's has not.
-constexpr std::array<std::string_view, 9> kOfPlansAlone{"start",  "goal",   "waypoints", "weights", "ranking",
-                                                        "routes", "verify", "planners",  "commands"};
+constexpr std::array<std::string_view, 10> kOfPlansAlone{"start",    "start_error", "goal",   "waypoints",
+                                                         "weights",  "ranking",     "routes", "verify",
+                                                         "planners", "commands"};
 
 Result<const JsonValue*> row_of(const JsonValue& plan, int route) {
   const JsonValue* const summary = plan.find("summary");

@@ -13,6 +13,7 @@
 #include "api/report/check_charts.h"
 #include "api/report/route_map.h"
 #include "api/report/verdict_sections.h"
+#include "core/number_words.h"
 #include "planner/problem/verdict.h"
 
 namespace slipway::api {
@@ -37,7 +38,7 @@ std::string spread_words(const JsonValue& spread) {
 }
 std::string with_unit(double value, const JsonValue& rule) {
   const std::string& unit = text(rule, "unit");
-  return fmt::format("{:.3g}{}", value, unit == "1" ? "" : " " + unit);
+  return plain_number(value) + (unit == "1" ? "" : " " + unit);
 }
 
 void add_verdict(ReportPage& page, const JsonValue& check) {
@@ -63,7 +64,7 @@ void add_rules(ReportPage& page, const JsonValue& outcomes) {
     const JsonValue& value = at(rule, "value");
     page.row(
         {text(rule, "words"), with_unit(number(rule, "limit"), rule), with_unit(number(value, "p50"), rule),
-         fmt::format("{:.3g} to {:.3g}", number(value, "p05"), number(value, "p95")),
+         fmt::format("{} to {}", plain_number(number(value, "p05")), plain_number(number(value, "p95"))),
          share_words(at(rule, "trips")),
          has(rule, "tripping_value") ? with_unit(number(at(rule, "tripping_value"), "p50"), rule) : "-",
          has(rule, "from_m") ? fmt::format("{:.1f} - {:.1f} m", number(rule, "from_m"), number(rule, "to_m"))

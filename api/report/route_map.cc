@@ -101,6 +101,21 @@ dem::Extent extent_of(const std::vector<DrawnRoute>& routes) {
   return {e.west_m - kMargin_m, e.south_m - kMargin_m, e.east_m + kMargin_m, e.north_m + kMargin_m};
 }
 
+// A title's words in lines that fit the legend.
+std::vector<std::string> in_lines(std::string_view title) {
+  constexpr std::size_t kMostLetters = 33;
+  std::vector<std::string> lines(1);
+  for (std::size_t begin = 0; begin < title.size();) {
+    const std::size_t end = std::min(title.find(' ', begin), title.size());
+    const std::string_view word = title.substr(begin, end - begin);
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > kMostLetters) lines.emplace_back();
+    if (!lines.back().empty()) lines.back() += ' ';
+    lines.back() += word;
+    begin = end + 1;
+  }
+  return lines;
+}
+
 class Picture {
  public:
   // The routes' lines have the colours of their values.
@@ -108,12 +123,6 @@ class Picture {
       : ground_(ground), colours_(colours), extent_(ground.terrain->geometry().extent()) {
     scale_ = kMapWidth_px / (extent_.east_m - extent_.west_m);
     height_px_ = scale_ * (extent_.north_m - extent_.south_m);
-    out_ = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
-        "{0:.0f} {1:.0f}\" "
-        "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" "
-        "fill=\"white\"/>\n",
-        kMapWidth_px + kLegendWidth_px, std::max(height_px_, 420.0));
   }
 
   Result<void> draw_ground() {
@@ -252,8 +261,14 @@ class Picture {
 
   std::string finish(std::string_view title) {
     scale_bar();
-    legend(title);
-    return out_ + "</svg>\n";
+    const double legend_height_px = legend(title);
+    return fmt::format(
+               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
+               "{0:.0f} {1:.0f}\" "
+               "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" "
+               "fill=\"white\"/>\n",
+               kMapWidth_px + kLegendWidth_px, std::max({height_px_, 420.0, legend_height_px})) +
+           out_ + "</svg>\n";
   }
 
  private:
@@ -300,7 +315,8 @@ class Picture {
             fmt::format("{:g} m, north is up", length_m)));
   }
 
-  void legend(std::string_view title) {
+  // Its height, px.
+  double legend(std::string_view title) {
     double at = 24.0;
     const double left = kMapWidth_px + 14.0;
     const auto row = [&](const std::string& sign, std::string_view words) {
@@ -308,8 +324,11 @@ class Picture {
                           svg_text("x=\"36\" y=\"5\"", words));
       at += 24.0;
     };
-    out_ += svg_text(fmt::format("x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\"", left, at), title) + "\n";
-    at += 26.0;
+    for (const std::string& line : in_lines(title)) {
+      out_ += svg_text(fmt::format("x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\"", left, at), line) + "\n";
+      at += 18.0;
+    }
+    at += 8.0;
     for (const ValueColour& c : colours_)
       row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);
     row("<path d=\"M0 0h28\" stroke=\"black\" stroke-width=\"4\" stroke-dasharray=\"7 4\"/>",
@@ -332,6 +351,7 @@ class Picture {
                       l.opacity),
           l.words);
     row("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"#999\"/>", "unknown ground");
+    return at;
   }
 
   const GroundWindow& ground_;

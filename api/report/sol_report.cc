@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,12 +13,13 @@
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
+#include "api/report/command_rows.h"
+#include "api/report/day_words.h"
 #include "api/report/route_map.h"
 #include "api/report/verdict_sections.h"
 #include "core/angle.h"
 #include "core/utc.h"
 #include "planner/problem/verdict.h"
-#include "planner/timing/departures.h"
 #include "sky/mars_time.h"
 
 namespace slipway::api {
@@ -34,10 +36,24 @@ std::string place_words(const JsonValue& place) {
                      number(place, "y_m"));
 }
 
+// With a capital and a full stop.
+std::string sentence(std::string words) {
+  if (!words.empty() && words.front() >= 'a' && words.front() <= 'z')
+    words.front() = static_cast<char>(words.front() - 'a' + 'A');
+  return words + ".";
+}
+
 std::vector<double> of_each(const JsonValue& rows, std::string_view key) {
   std::vector<double> values;
   for (const JsonValue& row : rows.elements) values.push_back(number(row, key));
   return values;
+}
+
+// A battery is not below empty.
+std::vector<double> charges(const JsonValue& rows, std::string_view key) {
+  std::vector<double> percents = of_each(rows, key);
+  for (double& percent : percents) percent = std::max(0.0, percent);
+  return percents;
 }
 
 // Hours from the first departure that was tried.
@@ -63,8 +79,8 @@ std::string day_charts(const JsonValue& departures, const JsonValue& drive) {
   charts[0].title = "Battery on the way";
   charts[0].x.title = charts[1].x.title = "way, m";
   charts[0].y.title = "charge, %";
-  charts[0].series = {line("median pace", way, of_each(stations, "charge_percent"), 0),
-                      line("worse pace", way, of_each(stations, "charge_low_percent"), 1)};
+  charts[0].series = {line("median pace", way, charges(stations, "charge_percent"), 0),
+                      line("worse pace", way, charges(stations, "charge_low_percent"), 1)};
   charts[1].title = "Power";
   charts[1].y.title = "power, W";
   charts[1].series = {line("gained", way, of_each(stations, "in_w"), 2),
@@ -73,31 +89,33 @@ std::string day_charts(const JsonValue& departures, const JsonValue& drive) {
   charts[2].x.title = "departure, h after the first";
   charts[2].y.title = "least charge, %";
   charts[2].series = {
-      line("median pace", departure_hours(tried), of_each(tried, "least_charge_percent"), 0),
-      line("worse pace", departure_hours(tried), of_each(tried, "least_charge_low_percent"), 1)};
+      line("median pace", departure_hours(tried), charges(tried, "least_charge_percent"), 0),
+      line("worse pace", departure_hours(tried), charges(tried, "least_charge_low_percent"), 1)};
   if (!stations.elements.empty() && has(stations.elements.front(), "motor_c")) {
     Chart& motor = charts.emplace_back();
-    motor.title = "Hottest drive motor";
+    motor.title = "Hottest drive motor, an envelope";
     motor.x.title = "way, m";
     motor.y.title = "temperature, degC";
     motor.series = {line("median pace", way, of_each(stations, "motor_c"), 0),
-                    line("slow pace", way, of_each(stations, "motor_slow_c"), 1)};
+                    line("slow pace", way, of_each(stations, "motor_slow_c"), 3)};
   }
   return draw_charts("The day", charts);
 }
 
-// Times in UTC to the minute and, on Mars, in local true solar time at the start.
+// Times in UTC and, on Mars, in local true solar time at the start.
 struct DayClock {
   std::optional<double> east_longitude_rad;
 
   std::string words(std::int64_t utc_ms) const {
-    const std::string utc = utc_text(utc_ms);
-    std::string out = utc.substr(0, 10) + " " + utc.substr(11, 5) + " UTC";
+    std::string out = utc_words(utc_ms);
     if (!east_longitude_rad) return out;
     const long minutes = std::lround(60.0 * sky::mars_time(utc_ms, *east_longitude_rad).true_solar_h) % 1440;
     return out + fmt::format(" ({:02}:{:02} true solar time)", minutes / 60, minutes % 60);
   }
-  std::string words(const std::string& time) const { return words(utc_of_text(time).value_or(0)); }
+  // Of an arrival, told to the minute.
+  std::string arrival(const JsonValue& drive, std::string_view key) const {
+    return words(minute_after(time_of(drive, key)));
+  }
 };
 
 DayClock clock_at_start(const Catalogue& catalogue, const JsonValue& sol, const JsonValue& request) {
@@ -110,37 +128,43 @@ DayClock clock_at_start(const Catalogue& catalogue, const JsonValue& sol, const 
   return {rad_from_deg(degrees->x)};
 }
 
+void add_windows(ReportPage& page, const JsonValue& departures, const DayClock& clock) {
+  for (const JsonValue& window : at(departures, "windows").elements) {
+    const planner::DepartureWindow told = told_window(window);
+    page.item(told.from_ms == told.to_ms ? "Depart at " + clock.words(told.from_ms)
+                                         : fmt::format("Depart between {} and {}", clock.words(told.from_ms),
+                                                       clock.words(told.to_ms)));
+  }
+}
+
 void add_day(ReportPage& page, const JsonValue& departures, const JsonValue& asked, const DayClock& clock) {
   page.section("The day");
-  for (const JsonValue& window : at(departures, "windows").elements) {
-    const planner::DepartureWindow minutes = planner::to_the_minute(
-        {utc_of_text(text(window, "from")).value_or(0), utc_of_text(text(window, "to")).value_or(0)});
-    page.item(minutes.from_ms == minutes.to_ms
-                  ? "Depart at " + clock.words(minutes.from_ms)
-                  : fmt::format("Depart between {} and {}", clock.words(minutes.from_ms),
-                                clock.words(minutes.to_ms)));
-  }
+  add_windows(page, departures, clock);
   const JsonValue& drive = at(departures, has(departures, "best") ? "best" : "nearest");
   page.paragraph(fmt::format(
       "{} {}: the rover arrives at {}, at the slow pace at {}. The sun is over the horizon for "
-      "{:.0f} % of the time. The battery holds {:.1f} % at the departure and {:.1f} % at the "
-      "arrival ({:.1f} % at the worse pace): {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh spilled.{}",
-      has(departures, "best") ? "Best at" : "Nearest to keeping the rules of the day is",
-      clock.words(text(drive, "departs")), clock.words(text(drive, "arrives")),
-      clock.words(text(drive, "arrives_late")), 100.0 * number(drive, "lit_share"),
-      number(asked, "charge_percent"), number(drive, "charge_percent"), number(drive, "charge_low_percent"),
-      number(drive, "gained_wh"), number(drive, "used_wh"), number(drive, "spilled_wh"),
+      "{:.0f} % of the time. With {:.1f} % at the departure {}: {:.0f} Wh gained, {:.0f} Wh used, {:.0f} Wh "
+      "spilled.{}",
+      has(departures, "best") ? "Best at" : "The departure that breaks fewest rules of the day is",
+      clock.words(time_of(drive, "departs")), clock.arrival(drive, "arrives"),
+      clock.arrival(drive, "arrives_late"), 100.0 * number(drive, "lit_share"),
+      number(asked, "charge_percent"), battery_words(drive, 1), number(drive, "gained_wh"),
+      number(drive, "used_wh"), number(drive, "spilled_wh"),
       number(asked, "optical_depth") > 0.0
           ? fmt::format(" The optical depth of the air is {:g}.", number(asked, "optical_depth"))
           : std::string()));
+  page.paragraph(std::string(kPaceWords));
   if (has(departures, "halt"))
     page.paragraph(
         fmt::format("Wait for {:.1f} h at {:.1f} m to charge: without it no departure keeps the rules of the "
                     "day. The commands hold no wait: split the one that is under way there, and wait between "
                     "its parts.",
                     number(at(departures, "halt"), "hours"), number(at(departures, "halt"), "at_m")));
-  page.picture({"day", day_charts(departures, drive)},
-               "Along the way from the departure above; \"By departure\": every departure that was tried");
+  page.picture(
+      {"day", day_charts(departures, drive)},
+      "Along the way from the departure above; \"By departure\": every departure that was tried; "
+      "\"Hottest drive motor\", where it is shown: at each place by the losses of the wheel that loses "
+      "most there, so no wheel's motor is warmer");
   page.table({"rule of the day", "verdict"});
   for (const JsonValue& rule : at(drive, "rules").elements)
     page.row({text(rule, "words"), std::string(planner::verdict_words(text(rule, "verdict")))});
@@ -161,30 +185,30 @@ void add_start(ReportPage& page, const JsonValue& decision) {
             fmt::format("{:.0f}", number(starts, "no_go"))});
 }
 
-void add_places(ReportPage& page, const JsonValue& sol, const DayClock& clock) {
+void add_checks(ReportPage& page, const JsonValue& sol) {
   page.section("Where to check the slip");
-  if (at(sol, "checks").elements.empty()) page.paragraph("On no stretch is a halt likely enough.");
-  for (const JsonValue& check : at(sol, "checks").elements)
-    page.item(fmt::format("{}: {}", place_words(check), text(check, "why")));
-  page.section("If it does not come to the end");
-  if (has(sol, "time_runs_out"))
-    page.paragraph(fmt::format("When the time is over: {}. {}.", place_words(at(sol, "time_runs_out")),
-                               text(at(sol, "time_runs_out"), "why")));
-  if (has(sol, "worst"))
-    page.paragraph(fmt::format("The worst place: {}. {}.", place_words(at(sol, "worst")),
-                               text(at(sol, "worst"), "why")));
-  else
-    page.paragraph("No draw of the ground halts the rover.");
-  if (!has(sol, "back_out")) {
-    if (has(sol, "no_way_back"))
-      page.paragraph(fmt::format("No way back was checked: {}.", text(sol, "no_way_back")));
-    return;
-  }
-  const JsonValue& back = at(sol, "back_out");
+  const JsonValue& checks = at(sol, "checks");
+  page.paragraph(fmt::format("{}. {}", assumed_checks_words(at(at(sol, "plan"), "request")),
+                             checks.elements.empty()
+                                 ? "On no stretch is a halt likely enough to name a place."
+                                 : "At these places a check matters most:"));
+  for (const JsonValue& check : checks.elements)
+    page.item(fmt::format("{}, at ({:.1f}, {:.1f}): {}", check_place_words(number(check, "at_m")),
+                          number(check, "x_m"), number(check, "y_m"), text(check, "why")));
+}
+
+void add_command_table(ReportPage& page, const JsonValue& commands, const JsonValue& checks) {
+  page.table({"from - to", "command", "slip"});
+  for (const CommandRow& row : command_rows(commands, checks))
+    page.row({way_words(row), row.words, row.checks});
+}
+
+// The way back out of the worst place, with its commands where the document has them.
+void add_way_back(ReportPage& page, const JsonValue& back, const DayClock& clock) {
   const JsonValue& request = at(back, "request");
   const std::string begun = has(request, "departure")
                                 ? fmt::format(", begun at the slow pace at {} with {:.0f} % in the battery,",
-                                              clock.words(text(at(request, "departure"), "from")),
+                                              clock.words(time_of(at(request, "departure"), "from")),
                                               number(at(request, "departure"), "charge_percent"))
                                 : std::string();
   page.paragraph(
@@ -192,21 +216,36 @@ void add_places(ReportPage& page, const JsonValue& sol, const DayClock& clock) {
                   begun, planner::verdict_words(text(back, "verdict")),
                   at(back, "reasons").elements.empty() ? std::string("no reason")
                                                        : at(back, "reasons").elements.front().text));
+  if (!has(request, "commands")) return;
+  page.paragraph(fmt::format("{}{}. The commands of the way back:", start_words(at(request, "start")),
+                             at(request, "backwards").boolean ? ", driven backwards" : ""));
+  add_command_table(page, at(request, "commands"), {});
 }
 
-void add_commands(ReportPage& page, const JsonValue& route) {
+void add_places(ReportPage& page, const JsonValue& sol, const JsonValue& departures, const DayClock& clock) {
+  page.section("If it does not come to the end");
+  if (has(sol, "time_runs_out"))
+    page.paragraph(fmt::format("When the time is over: {}. {}", place_words(at(sol, "time_runs_out")),
+                               sentence(text(at(sol, "time_runs_out"), "why"))));
+  if (const auto in_time = in_time_words(at(departures, has(departures, "best") ? "best" : "nearest")))
+    page.paragraph(fmt::format("The time is enough: {}.", *in_time));
+  if (has(sol, "worst"))
+    page.paragraph(fmt::format("The worst place: {}. {}", place_words(at(sol, "worst")),
+                               sentence(text(at(sol, "worst"), "why"))));
+  else
+    page.paragraph("No draw of the ground halts the rover.");
+  if (has(sol, "back_out"))
+    add_way_back(page, at(sol, "back_out"), clock);
+  else if (has(sol, "no_way_back"))
+    page.paragraph(fmt::format("No way back was checked: {}.", text(sol, "no_way_back")));
+}
+
+void add_commands(ReportPage& page, const JsonValue& route, const JsonValue& checks) {
   page.section("Commands");
   if (text(route, "verdict") != "go")
     page.paragraph("The route is not a GO: these commands are for reading, not for driving.");
-  page.paragraph("Angles and radii are positive to the left.");
-  page.table({"command"});
-  for (const JsonValue& command : at(route, "commands").elements) {
-    std::string words;
-    for (std::size_t k = 0; k < command.keys.size(); ++k)
-      words +=
-          fmt::format("{}{} {:g}", words.empty() ? "" : ", ", command.keys[k], command.elements[k].number);
-    page.row({words});
-  }
+  page.paragraph(fmt::format("{}. {}", start_words(at(route, "start")), kCommandSigns));
+  add_command_table(page, at(route, "commands"), checks);
 }
 
 }  // namespace
@@ -237,8 +276,9 @@ Result<std::string> sol_report(const Catalogue& catalogue, std::string_view docu
   if (has(decision, "departures"))
     add_day(page, at(decision, "departures"), at(at(plan, "request"), "departure"), clock);
   add_start(page, decision);
-  add_places(page, *sol, clock);
-  add_commands(page, route);
+  add_checks(page, *sol);
+  add_places(page, *sol, at(decision, "departures"), clock);
+  add_commands(page, route, at(*sol, "checks"));
   add_provenance(page, plan);
   return page.html();
 }

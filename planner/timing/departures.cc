@@ -165,10 +165,17 @@ std::optional<WithHalt> with_halt(const DriveInTime& drive, double length_m, con
 }  // namespace
 
 DepartureWindow to_the_minute(const DepartureWindow& window) {
-  using std::chrono::milliseconds, std::chrono::minutes;
-  const milliseconds from = std::chrono::ceil<minutes>(milliseconds(window.from_ms));
-  const milliseconds to = std::chrono::floor<minutes>(milliseconds(window.to_ms));
-  return from <= to ? DepartureWindow{from.count(), to.count()} : window;
+  using std::chrono::milliseconds, std::chrono::minutes, std::chrono::seconds;
+  const milliseconds from(window.from_ms), to(window.to_ms);
+  const auto within = [](milliseconds first, milliseconds last) {
+    return DepartureWindow{first.count(), last.count()};
+  };
+  const DepartureWindow whole_minutes =
+      within(std::chrono::ceil<minutes>(from), std::chrono::floor<minutes>(to));
+  if (whole_minutes.from_ms <= whole_minutes.to_ms) return whole_minutes;
+  const DepartureWindow whole_seconds =
+      within(std::chrono::ceil<seconds>(from), std::chrono::floor<seconds>(to));
+  return whole_seconds.from_ms <= whole_seconds.to_ms ? whole_seconds : window;
 }
 
 Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
@@ -245,17 +252,16 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     const bool is_open = worst == severity(Verdict::kUnknown);
     std::string words =
         fmt::format("no departure {} the rules of the day; at {} {}", is_open ? "is known to keep" : "keeps",
-                    utc_text(drive.departs_ms), why.front());
+                    utc_words(drive.departs_ms), why.front());
     for (std::size_t k = 1; k < why.size(); ++k) words += "; " + why[k];
     const bool decides = worst > severity(verdict.verdict);
     verdict.reasons.insert(decides ? verdict.reasons.begin() : verdict.reasons.end(), std::move(words));
   } else if (departures.halt) {
     std::string words = fmt::format(
         "{} the rover must wait for {:.2f} h {} to charge, without which no departure keeps the rules of the "
-        "day; "
-        "its commands hold no wait",
-        departures.halt->at_m > 0.0 ? fmt::format("departing at {}", utc_text(drive.departs_ms))
-                                    : fmt::format("from {} on", utc_text(drive.departs_ms)),
+        "day; its commands hold no wait",
+        departures.halt->at_m > 0.0 ? fmt::format("departing at {}", utc_words(drive.departs_ms))
+                                    : fmt::format("from {} on", utc_words(drive.departs_ms)),
         departures.halt->hours,
         departures.halt->at_m > 0.0 ? fmt::format("at {:.1f} m", departures.halt->at_m)
                                     : std::string("where it stands, before it drives,"));
@@ -265,11 +271,11 @@ void judge_departures(const Departures& departures, DriveVerdict& verdict) {
     const DepartureWindow first = to_the_minute(departures.windows.front());
     verdict.reasons.push_back(
         departures.tried.size() == 1
-            ? fmt::format("a departure at {} keeps the rules of the day", utc_text(drive.departs_ms))
+            ? fmt::format("a departure at {} keeps the rules of the day", utc_words(drive.departs_ms))
             : fmt::format("a departure between {} and {}{} keeps the rules of the day, best at {}",
-                          utc_text(first.from_ms), utc_text(first.to_ms),
+                          utc_words(first.from_ms), utc_words(first.to_ms),
                           departures.windows.size() > 1 ? " and in later windows" : "",
-                          utc_text(drive.departs_ms)));
+                          utc_words(drive.departs_ms)));
   }
   for (const JudgedRule& rule : drive.rules) add_rule(rule, verdict);
 }

@@ -14,7 +14,7 @@ namespace slipway::planner {
 Departures departures_of(const Departure& departure, const sim::RoverModel& rover,
                          const sim::DrivePrediction& prediction, Progress& progress);
 
-// The whole minutes within a window, where there are any: readers cut the seconds off.
+// What is told of a window: the whole minutes within it, else the whole seconds, else its very ends.
 DepartureWindow to_the_minute(const DepartureWindow& window);
 
 // What the drive that was found makes of a verdict.

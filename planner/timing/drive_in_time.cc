@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
+#include "core/number_words.h"
 #include "core/pose.h"
 #include "core/quantile.h"
 #include "core/utc.h"
@@ -25,6 +28,31 @@ constexpr double kCloseToHorizon_rad = 0.15;
 constexpr std::size_t kMostPlaces = 800;
 constexpr double kHidden_rad = -0.5 * std::numbers::pi;  // the elevation of what the ground hides
 constexpr double kWholeWay = 0.999;                      // a draw that came so far came to the end
+
+// What is not known where the table of the sky ends, of a rule by its name.
+std::string_view plain_name(std::string_view rule) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames{
+      {{"charge", "the battery's charge"},
+       {"motor_cold", "the coldest drive motor's temperature"},
+       {"motor_hot", "the hottest drive motor's temperature"},
+       {"sun", "the height of the sun"},
+       {"earth", "the height of the Earth"},
+       {"light_left", "the light that is left"}}};
+  const auto* const found =
+      std::find_if(kNames.begin(), kNames.end(), [&](const auto& row) { return row.first == rule; });
+  return found == kNames.end() ? rule : found->second;
+}
+
+// Arrivals are told to the minute, the later one, and to the second where that would be behind a limit they
+// keep.
+std::string arrival_words(std::int64_t usual_ms, std::int64_t slow_ms, std::int64_t limit_ms) {
+  const auto told = [&](std::int64_t ms) {
+    return utc_words(ms <= limit_ms && minute_after(ms) > limit_ms ? ms : minute_after(ms));
+  };
+  return fmt::format("the rover arrives at {}, at the slow pace at {}, {} {} the limit of {}", told(usual_ms),
+                     told(slow_ms), span_words(1e-3 * static_cast<double>(limit_ms - slow_ms)),
+                     slow_ms > limit_ms ? "after" : "before", utc_words(limit_ms));
+}
 
 std::int64_t after(std::int64_t utc_ms, double seconds) {
   return utc_ms + std::llround(1000.0 * seconds);
@@ -314,10 +342,10 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     rule.go_below = rule.no_go_above = limit;
     rule.unit = std::move(unit);
     rule.at_m = at_m;
-    rule.words =
-        rule.verdict == Verdict::kUnknown
-            ? fmt::format("the table of the sky ends before {} is known: give a longer one", rule.name)
-            : std::move(words);
+    rule.words = rule.verdict == Verdict::kUnknown
+                     ? fmt::format("the table of the sky ends before {} is known: give a longer one",
+                                   plain_name(rule.name))
+                     : std::move(words);
     drive.rules.push_back(std::move(rule));
   };
   const bool sun_is_known = usual.sun_is_known && slow.sun_is_known;
@@ -337,9 +365,9 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
             ? fmt::format("the battery falls below the limit of {:g} % at {:.1f} m, and is empty before "
                           "the arrival",
                           100.0 * known.limit, *known.broken_m)
-            : fmt::format("the battery falls below the limit of {:g} % at {:.1f} m, to {:.1f} % at its "
-                          "lowest",
-                          100.0 * known.limit, *known.broken_m, 100.0 * low));
+            : fmt::format("the battery falls below the limit of {:g} % at {:.1f} m, to {} % at its lowest",
+                          100.0 * known.limit, *known.broken_m,
+                          number_beside(100.0 * low, 100.0 * known.limit, 1)));
   }
   if (motor_) {
     const auto motors = [&](const char* name, const char* which, double sign, std::optional<double> limit_c,
@@ -370,9 +398,9 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
         !least.broken_m
             ? fmt::format("{} stands {:.2f} deg high or more, limit {:.2f} deg", what, lowest_deg, limit_deg)
         : !is_hidden ? fmt::format(
-                           "{} falls below the limit of {:.2f} deg at {:.1f} m, to {:.2f} deg at its "
+                           "{} falls below the limit of {:.2f} deg at {:.1f} m, to {} deg at its "
                            "lowest",
-                           what, limit_deg, first_m, lowest_deg)
+                           what, limit_deg, first_m, number_beside(lowest_deg, limit_deg, 2))
         : least.at_m > first_m
             ? fmt::format(
                   "{} falls below the limit of {:.2f} deg at {:.1f} m, and is not in sight at {:.1f} m", what,
@@ -391,8 +419,8 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
     const double left = at_slow.value_or(enough);
     add("light_left", at_usual && at_slow, at_usual.value_or(enough) / kHour_s, left / kHour_s,
         enough / kHour_s, "h", {},
-        left < enough ? fmt::format("{:.3g} h of light are left at the arrival, limit {:.3g} h",
-                                    left / kHour_s, enough / kHour_s)
+        left < enough ? fmt::format("{} h of light are left at the arrival, limit {:g} h",
+                                    number_beside(left / kHour_s, enough / kHour_s, 2), enough / kHour_s)
                       : fmt::format("{:.2f} h of light or more are left at the arrival", enough / kHour_s));
   }
   if (rules.arrive_by) {
@@ -400,8 +428,7 @@ void DriveInTime::judge(const Course& usual, const Course& slow, TimedDrive& dri
       return static_cast<double>(*rules.arrive_by - at) / 3.6e6;
     };
     add("arrival", true, hours_before(usual.arrives_ms), hours_before(slow.arrives_ms), 0.0, "h", {},
-        fmt::format("the rover arrives at {}, at the slow pace at {}, limit {}", utc_text(usual.arrives_ms),
-                    utc_text(slow.arrives_ms), utc_text(*rules.arrive_by)));
+        arrival_words(usual.arrives_ms, slow.arrives_ms, *rules.arrive_by));
   }
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/number_words.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -194,9 +196,13 @@ constexpr std::array<RuleRow, kRules> kCatalogue{{
      .unit = "1"},
 }};
 
+std::string in_four_digits(double value) {
+  return std::abs(value) < 1000.0 ? fmt::format("{:.4g}", value) : plain_number(value);
+}
+
 std::string number_words(double value, double limit) {
   const bool near = std::isfinite(limit) && std::abs(value - limit) < 0.02 * std::abs(limit);
-  return near ? fmt::format("{:.4g}", value) : fmt::format("{:.3g}", value);
+  return near ? in_four_digits(value) : plain_number(value);
 }
 
 std::string unit_words(const RuleRow& row) {
@@ -241,9 +247,9 @@ std::string value_words(Rule rule, double value, double limit) {
 
 std::string describe(const BrokenLimit& broken) {
   const RuleRow& row = row_of(broken.rule);
-  return fmt::format("{} {} at {:.1f} m, limit {:.4g}{}", row.quantity,
+  return fmt::format("{} {} at {:.1f} m, limit {}{}", row.quantity,
                      value_words(broken.rule, broken.value, broken.limit), broken.distance_m,
-                     broken.limit * row.factor, unit_words(row));
+                     in_four_digits(broken.limit * row.factor), unit_words(row));
 }
 
 StationRules::StationRules(const RoverModel& rover, const DriveLimits& limits)

@@ -147,6 +147,45 @@ TEST(DepartureRequest, EveryFaultHasItsPlace) {
             Places{"/departure/min_charge_percent"});
 }
 
+// A fault of one key hides no fault of another, and a list that is too short none of its rows.
+TEST(DepartureRequest, NoFaultHidesAnother) {
+  using Places = std::vector<std::string>;
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"1700-01-01T00:00:00Z","charge_percent":160)")),
+            (Places{"/departure/charge_percent", "/departure/from"}));
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"now","charge_percent":160,"min_sun":5)")),
+            (Places{"/departure/from", "/departure/charge_percent", "/departure/min_sun"}));
+  EXPECT_EQ(kYard.faults_of(
+                departing(R"("from":"2026-07-01T00:00:00Z","sky":[{"at":"now","sun_azimuth_deg":500}])")),
+            (Places{"/departure/sky", "/departure/sky/0/at", "/departure/sky/0/sun_azimuth_deg",
+                    "/departure/sky/0/sun_elevation_deg"}));
+  EXPECT_EQ(kYard.faults_of(departing(R"("from":"2026-07-01T00:00:00Z","sky":[])")),
+            Places{"/departure/sky"});
+}
+
+// What is not known is open, and only what does not hold is broken.
+TEST(DepartureRequest, WhatTheTableDoesNotReachIsOpenAndNotBroken) {
+  const auto answer = kYard.checked(departing(
+      R"("from":"2026-07-01T11:59:50Z","min_sun_deg":20,"light_left_h":1,"arrive_by":"2026-07-01T12:00:00Z","sky":[)"
+      R"({"at":"2026-07-01T06:00:00Z","sun_azimuth_deg":90,"sun_elevation_deg":0},)"
+      R"({"at":"2026-07-01T12:00:00Z","sun_azimuth_deg":90,"sun_elevation_deg":89}])"));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const json::JsonValue& nearest = *answer->find("decision")->find("departures")->find("nearest");
+  const auto names = [&](const char* key) {
+    std::string all;
+    for (const json::JsonValue& name : nearest.find(key)->elements) all += name.text + " ";
+    return all;
+  };
+  EXPECT_EQ(names("broken"), "arrival ");
+  EXPECT_NE(names("open").find("sun light_left "), std::string::npos) << names("open");
+  for (const json::JsonValue& rule : nearest.find("rules")->elements) {
+    EXPECT_EQ(rule.find("words")->text.find("light_left"), std::string::npos);
+    if (rule.find("rule")->text == "light_left") {
+      EXPECT_EQ(rule.find("words")->text,
+                "the table of the sky ends before the light that is left is known: give a longer one");
+    }
+  }
+}
+
 TEST(DepartureRequest, ReadsBackAsItIsWritten) {
   const std::string given =
       std::string(

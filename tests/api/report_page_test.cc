@@ -24,6 +24,14 @@ ReportPage page_of(const std::string& name) {
   return page;
 }
 
+// On a narrow screen a picture scrolls in its figure; smaller, its words could not be read.
+TEST(ReportPage, PicturesKeepTheirSizeOnANarrowScreen) {
+  const std::string page = page_of("x").html();
+  EXPECT_NE(page.find("@media screen and (max-width:1000px)"), std::string::npos);
+  EXPECT_NE(page.find("figure svg{max-width:none}"), std::string::npos);
+  EXPECT_NE(page.find("figure{margin:1.2rem 0;overflow-x:auto}"), std::string::npos);
+}
+
 TEST(ReportPage, TheMarkdownOfAHostileNameIsText) {
   const std::string text = page_of(kHostile).markdown();
   EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) {

@@ -7,6 +7,8 @@
 #include "api/documents/sol_document.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/json/writer.h"
+#include "api/report/command_rows.h"
 #include "api/report/sol_report.h"
 #include "api/service_sol.h"
 #include "small_world.h"
@@ -140,6 +142,50 @@ TEST(Sol, InTheDarkThereIsNoWayBack) {
   const JsonValue* const sun = rule_of(at(at(sol, "back_out"), "decision"), "sun");
   ASSERT_NE(sun, nullptr);
   EXPECT_EQ(text(*sun, "verdict"), "no_go");
+}
+
+// The page can be driven from: the pose, each command with its place, and what is assumed of slip checks.
+TEST(Sol, ThePageHasThePoseAndThePlacesOfItsCommands) {
+  const std::string document = sol_of(sol_request("", R"("arrive_by":"2026-07-01T12:00:00Z",)"));
+  const auto page = sol_report(*small_world().catalogue(), document);
+  ASSERT_TRUE(page);
+  const JsonValue sol = json::parse(document).value();
+  const JsonValue& route = at(at(sol, "plan"), "summary").elements.front();
+  for (const std::string& part :
+       {start_words(at(route, "start")), way_words(command_rows(at(route, "commands"), {}).back()),
+        std::string("the slip is checked every 5 m"), std::string("2026-07-01 08:00 UTC"),
+        std::string("The time is enough: the rover arrives at 2026-07-01 "),
+        std::string("before the limit of 2026-07-01 12:00 UTC")})
+    EXPECT_NE(page->find(part), std::string::npos) << part;
+  const std::string words = page->substr(0, page->find("Request and provenance</h2>"));
+  for (const char* const unwanted : {"00.000Z", "before 0.0 m", "Nearest", "<td>drive_m"})
+    EXPECT_EQ(words.find(unwanted), std::string::npos) << unwanted;
+}
+
+TEST(Sol, ThePageHasTheCommandsOfTheWayBackWhereTheDocumentHasThem) {
+  const JsonValue sol = json::parse(sol_of(sol_request(""))).value();
+  ASSERT_TRUE(has(sol, "back_out"));
+  json::Writer w;
+  json::write_value(w, sol);
+  std::string document = w.take();
+  const std::string request = R"("back_out":{"format":"check/1")";
+  ASSERT_NE(document.find(request), std::string::npos);
+  const std::size_t begin = document.find(R"("request":{)", document.find(request)) + 11;
+  // As if the way back were driven by these.
+  std::string with = document;
+  with.insert(begin, R"("start":{"x_m":33.5,"y_m":30.25,"yaw_deg":12.5},"commands":[{"drive_m":7.25}],)");
+  const auto page = sol_report(*small_world().catalogue(), with);
+  ASSERT_TRUE(page);
+  EXPECT_NE(page->find("Start at (33.50, 30.25) m of the map, heading 12.5 deg"), std::string::npos);
+  EXPECT_NE(page->find("<td>drive 7.25 m</td>"), std::string::npos);
+}
+
+// A title that is longer than the legend is wide has several lines.
+TEST(Sol, TheMapsTitleFitsItsLegend) {
+  const auto page = sol_report(*small_world().catalogue(), sol_of(sol_request("")));
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->find(">A yard of 120 m by 100 m on Mars: a gentle rise"), std::string::npos);
+  EXPECT_NE(page->find(">A yard of 120 m by 100 m on Mars:</text>"), std::string::npos);
 }
 
 }  // namespace

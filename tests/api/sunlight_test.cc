@@ -169,6 +169,18 @@ TEST(PlaceSky, IsRefusedWithWordsWhereItIsNotComputed) {
   }
 }
 
+TEST(PlaceSky, EveryFaultHasItsPlace) {
+  const auto sky = sky_over(*shipped("gale"), 5.0, 6.0, utc_of_text("1700-01-01T00:00:00Z").value(),
+                            utc_of_text("1700-01-01T05:00:00Z"));
+  ASSERT_FALSE(sky);
+  EXPECT_EQ(sky.error().code, ErrorCode::kOffMap);
+  ASSERT_EQ(sky.error().faults.size(), 3U);
+  EXPECT_EQ(sky.error().faults[0].pointer, "/place");
+  EXPECT_NE(sky.error().faults[0].message.find("(5, 6) m is off the map"), std::string::npos);
+  EXPECT_EQ(sky.error().faults[1].pointer, "/from");
+  EXPECT_EQ(sky.error().faults[2].pointer, "/to");
+}
+
 TEST(PlaceSky, ASolRunsFromMidnightToMidnightInStepsOfAQuarterOfAnHour) {
   const auto site = shipped("gale");
   const std::int64_t asked = utc_of_text("2016-03-22T09:00:00Z").value();

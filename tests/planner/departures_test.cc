@@ -448,6 +448,44 @@ TEST(Departures, BehindAWallTheSunIsNotInSight) {
   EXPECT_EQ(hidden.lit_share, 0.0);
 }
 
+// What is told of a rule is plain, and what breaks it is told apart from its limit.
+TEST(DriveInTime, RulesAreToldInPlainWords) {
+  Departure departure = a_day();
+  departure.rules.light_left_s = 1000.0 * kHour_s;
+  departure.rules.arrive_by = 12 * kHour_ms + 30'000;
+  const sim::DrivePrediction prediction = two_hours();
+  const auto words_of = [&](std::int64_t departs_ms) {
+    std::string all;
+    for (const JudgedRule& rule :
+         DriveInTime(departure, kUnpowered, prediction, kNoProgress).at(departs_ms).rules)
+      all += rule.words + "\n";
+    return all;
+  };
+  const std::string kept = words_of(8 * kHour_ms);
+  EXPECT_NE(kept.find("h of light are left at the arrival, limit 1000 h"), std::string::npos) << kept;
+  EXPECT_NE(
+      kept.find("the rover arrives at 1970-01-01 10:00 UTC, at the slow pace at 1970-01-01 11:00 UTC, 60 min "
+                "before the limit of 1970-01-01 12:00:30 UTC"),
+      std::string::npos)
+      << kept;
+  EXPECT_NE(words_of(9 * kHour_ms + 45'000).find("15 s after the limit of"), std::string::npos);
+  EXPECT_NE(words_of(9 * kHour_ms + 20'000).find("at the slow pace at 1970-01-01 12:00:20 UTC, 10 s before"),
+            std::string::npos);
+  departure.rules = {};
+  departure.rules.min_sun_rad = rad_from_deg(20.0);
+  NoProgress progress;
+  const Departures found = departures_of(departure, kUnpowered, prediction, progress);
+  ASSERT_FALSE(found.windows.empty());
+  const std::string early = words_of(found.windows.front().from_ms - 2000);
+  EXPECT_NE(early.find("falls below the limit of 20.00 deg"), std::string::npos) << early;
+  EXPECT_EQ(early.find("to 20.00 deg at its lowest"), std::string::npos) << early;
+  const DepartureWindow told = to_the_minute(found.windows.front());
+  for (const std::int64_t end_ms : {told.from_ms, told.to_ms}) {
+    EXPECT_EQ(end_ms % 60'000, 0);
+    EXPECT_TRUE(holds(DriveInTime(departure, kUnpowered, prediction, kNoProgress).at(end_ms)));
+  }
+}
+
 // Hour by hour through three days, as the equation has it.
 TEST(MotorWarmth, WhatFollowsTheAirKeepsItsEquation) {
   Departure departure = a_day();

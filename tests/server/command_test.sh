@@ -282,6 +282,26 @@ expect 2 "$slipway" sky --lonlat 137.4,-4.6 --at ""
 echo '[{' >"$folder/sky.json"
 expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/sky.json"
 holds sky.json "$folder/err"
+# Every fault at once, in the words of the command line.
+expect 2 $shipped --depart nonsense --day charge_percent=160 --day min_sun=3
+for words in '^  --depart: .*FROM..TO' '/departure/charge_percent' '/departure/min_sun: .* air, '; do holds "$words" "$folder/err"; done
+expect 2 $shipped --depart 1700-01-01T00:00:00Z --day charge_percent=160
+for words in '/departure/charge_percent' 'not for the year 1700'; do holds "$words" "$folder/err"; done
+echo '[{"at":"now"}]' >"$folder/sky.json"
+expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/sky.json"
+for words in 'must have 2 to' '/departure/sky/0/at' '/departure/sky/0/sun_azimuth_deg'; do holds "$words" "$folder/err"; done
+expect 2 $shipped --depart 2016-03-22T09:00:00Z --day air=5
+holds 'air.coldest_c=-80 --day air.warmest_c=-10' "$folder/err"
+expect 0 $shipped --depart 2016-03-22T09:00:00Z --day air.coldest_c=-80 --day air.warmest_c=-10 --json
+holds '"air":{"coldest_c":-80,"warmest_c":-10}' "$folder/out"
+# An input that can't be used is one, whichever: a place off the map, a file that is not there.
+expect 2 "$slipway" check --path 0,0 1,1
+expect 2 "$slipway" plan --start 0,0 --goal 8142566,-276696
+holds '/start: (0, 0) m is off the map' "$folder/err"
+expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/none.json"
+holds 'none.json' "$folder/err"
+expect 2 "$slipway" plan --request "$folder/none.json"
+expect 2 "$slipway" sky --terrain gale --place 0,0 --horizon
 # To end sooner helps nothing where no departure keeps the rules of the day: without them the drive is a GO.
 expect 0 $shipped
 expect 3 $shipped --depart 2016-03-22T09:00:00Z --day arrive_by=2016-03-22T08:00:00Z
@@ -292,6 +312,14 @@ expect 2 "$slipway" sol $between --start-error position_m=-1
 holds '/start_error/position_m' "$folder/err"
 expect 0 "$slipway" sol $between --start-error position_m=0.2 --start-error heading_deg=1
 holds 'of 25 starts that are wrong by 0.2 m and 1 deg' "$folder/out"
+# What is printed of a sol can be driven: the pose, each command from where to where, what is assumed of slip checks.
+expect 0 "$slipway" sol $between --start-error position_m=0.2 --day arrive_by=2016-03-22T15:00:00Z --commands "$folder/sol.json"
+for words in '^Start at (8142566.00, -276711.00) m of the map, heading [0-9.]* deg$' '^drive .* m  *0.00 m  *[0-9.]* m' \
+  'the slip is checked every 5 m' '^Depart at 2016-03-22 09:00 UTC$' '^In time: .* before the limit of 2016-03-22 15:00 UTC$'; do
+  holds "$words" "$folder/out"
+done
+! grep -q '\(T09:\|before 0.0 m\)' "$folder/out" || { cat "$folder/out"; exit 1; }
+expect 0 "$slipway" check --commands "$folder/sol.json"
 # A GO that holds only with a wait says so first.
 expect 0 $shipped --depart 2016-03-22T01:00:00Z --day charge_percent=0
 holds '^GO: departing at .* must wait' "$folder/out"

@@ -32,7 +32,7 @@ PYTHON
 
 # A table of the Moon's sky, which a request takes as it is.
 expect 0 "$slipway" sky --lonlat 12.3,-88.6 --body Moon $at --until 2016-03-24T10:30:00Z --sky "$kernel" --table "$folder/sky.json"
-holds '^Table: 51 moments from 2016-03-22T09:00:00.000Z to 2016-03-24T10:30:00.000Z' "$folder/out"
+holds '^Table: 51 moments from 2016-03-22 09:00 UTC to 2016-03-24 10:30 UTC' "$folder/out"
 holds '"sun_distance_au":0.9' "$folder/sky.json"
 moon="--terrain lunar_south_pole_synthetic --data $data"
 expect 0 "$slipway" sky $moon $at --sky "$kernel"
@@ -57,7 +57,7 @@ drive="--path 8142566,-276711 8142566,-276696 --data $data"
 day="--depart 2016-03-22T00:00:00Z..2016-03-23T00:00:00Z --day min_sun_deg=20 --day min_earth_deg=10"
 for command in predict check; do
   expect verdict "$slipway" $command $drive $day --sky "$kernel"
-  holds 'Depart between 2016-03-22T08:58:.. and 2016-03-22T16:39:.. UTC' "$folder/out"
+  holds 'Depart between 2016-03-22 08:59 UTC and 2016-03-22 16:39 UTC' "$folder/out"
 done
 stops="--start 8142566,-276711 --goal 8142566,-276696 --data $data"
 expect verdict "$slipway" sol $stops $day --sky "$kernel"

@@ -3445,11 +3445,11 @@ export interface components {
              * @description At the pace that 95 % of these draws keep
              */
             arrives_late: string;
-            /** @description Of the battery at the arrival, at the median pace and energy [%] */
+            /** @description Of the battery at the arrival, at the median pace and energy [%]. Below 0 where the battery is empty on the way */
             charge_percent: number;
             /** @description The lower of this and what the 95th percentiles of both leave [%] */
             charge_low_percent: number;
-            /** @description On the way, at the median pace and energy [%] */
+            /** @description On the way, at the median pace and energy [%]. Below 0 where the battery is empty on the way */
             least_charge_percent: number;
             /** @description The lower of this and what the 95th percentiles of both leave [%] */
             least_charge_low_percent: number;
@@ -3461,10 +3461,12 @@ export interface components {
             used_wh: number;
             /** @description What a full battery could not take [Wh] */
             spilled_wh: number;
-            /** @description The rules of the day that it does not keep */
+            /** @description The rules of the day that it breaks: those that are NO-GO */
             broken: string[];
+            /** @description The rules of the day of which it is not known whether it keeps them, since the table of the sky ends before: those that are UNKNOWN */
+            open: string[];
             rules: components["schemas"]["JudgedRule"][];
-            /** @description At most some 400 of them */
+            /** @description At most 801 of them: of a drive with more stations every second, every third and so on, and the last */
             stations: {
                 /** @description Along the drive [m] */
                 distance_m: number;
@@ -3526,11 +3528,11 @@ export interface components {
                  * @description At the pace that 95 % of these draws keep
                  */
                 arrives_late: string;
-                /** @description Of the battery at the arrival, at the median pace and energy [%] */
+                /** @description Of the battery at the arrival, at the median pace and energy [%]. Below 0 where the battery is empty on the way */
                 charge_percent: number;
                 /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 charge_low_percent: number;
-                /** @description On the way, at the median pace and energy [%] */
+                /** @description On the way, at the median pace and energy [%]. Below 0 where the battery is empty on the way */
                 least_charge_percent: number;
                 /** @description The lower of this and what the 95th percentiles of both leave [%] */
                 least_charge_low_percent: number;
@@ -3542,8 +3544,10 @@ export interface components {
                 used_wh: number;
                 /** @description What a full battery could not take [Wh] */
                 spilled_wh: number;
-                /** @description The rules of the day that it does not keep */
+                /** @description The rules of the day that it breaks: those that are NO-GO */
                 broken: string[];
+                /** @description The rules of the day of which it is not known whether it keeps them, since the table of the sky ends before: those that are UNKNOWN */
+                open: string[];
             }[];
         };
         /** @description What one rule says of a drive: the probabilities of a halt, of being immobilised and of embedding, and every limit that breaks on the mean soils */

@@ -26,12 +26,26 @@ export function windowsView(route: Route): HTMLElement[] {
       ? h("ul", { class: "windows" }, windows.map(({ from, to }) => h("li", {}, h("span", { class: "badge go" }, "GO"), ` ${range(from, to)}`)))
       : h("p", {}, h("span", { class: `badge ${halt ? "go" : without}` }, verdictWords[halt ? "go" : without]), halt ? " Only with a halt to charge." : " No departure keeps all that is asked of the day."),
     from_ms! < to_ms! ? strip(windows, from_ms!, to_ms!, drive?.departs) : null,
-    drive ? h("p", { "data-departs": drive.departs }, h("strong", {}, `${best ? "Best" : "Nearest"}: ${utcText(drive.departs)}.`),
-      ` It arrives ${after(drive.departs, drive.arrives)}, at the slow pace ${after(drive.departs, drive.arrives_late)}. The battery is at ${number(drive.charge_percent, 3)} % then (slow: ${number(drive.charge_low_percent, 3)} %), on the way never below ${number(drive.least_charge_percent, 3)} % (slow: ${number(drive.least_charge_low_percent, 3)} %). The sun is on it for ${share(drive.lit_share)} of the time.`,
+    drive ? h("p", { "data-departs": drive.departs }, h("strong", {}, `${best ? "Best" : "Fewest rules broken"}: ${utcText(drive.departs)}.`),
+      ` It arrives ${after(drive.departs, laterMinute(drive.arrives))}, at the slow pace ${after(drive.departs, laterMinute(drive.arrives_late))}. ${battery(drive)} The sun is on it for ${share(drive.lit_share)} of the time.`,
       halt && ` It halts for ${number(halt.hours)} h after ${metres(halt.at_m)} to charge.`) : null,
     nearest ? h("ul", { class: "reasons" }, nearest.rules.filter((rule) => rule.verdict !== "go").map((rule) => h("li", {}, reasonText(rule.words)))) : null,
     drive ? button("Show its shadows on the map", () => store.set({ day: { at_ms: Date.parse(drive.departs), shows: "shadow" } }), { class: "quiet", "data-do": "show-departure" }) : null,
   ].filter((part) => part !== null);
+}
+
+/** An arrival is told no earlier than it is. */
+const laterMinute = (time: string): string => new Date(Math.ceil(Date.parse(time) / 60_000) * 60_000).toISOString();
+
+/** A battery that would fall below empty is empty, at a place. The worse pace is the one that leaves less in it. */
+function battery(drive: NonNullable<NonNullable<Route["decision"]["departures"]>["best"]>): string {
+  const emptyAt = (key: "charge_percent" | "charge_low_percent") => drive.stations.find((at) => at[key] <= 0)?.distance_m;
+  const lost = (at_m: number | undefined) => (at_m === undefined ? "empty on the way" : `empty at ${metres(at_m)}`);
+  if (drive.least_charge_percent < 0) return `The battery is ${lost(emptyAt("charge_percent"))}.`;
+  const usual = `The battery is at ${number(drive.charge_percent, 3)} % then, on the way never below ${number(drive.least_charge_percent, 3)} %`;
+  return drive.least_charge_low_percent < 0
+    ? `${usual}; at the worse pace it is ${lost(emptyAt("charge_low_percent"))}.`
+    : `${usual} (at the worse pace ${number(drive.charge_low_percent, 3)} % and ${number(drive.least_charge_low_percent, 3)} %).`;
 }
 
 /** The windows between the first and the last departure that was tried, with the chosen one. */

@@ -52,8 +52,8 @@ export const charts: Chart[] = [
   { key: "attitude", title: "Pitch and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
-  { key: "charge", title: "Battery (dashed: at the slow pace), %", line: (s) => s.charge_percent, second: { title: "slow pace", line: (s) => s.charge_low_percent }, limit: "min_charge_percent" },
-  { key: "motor", title: "Hottest drive motor (dashed: at the slow pace), degC", line: (s) => s.motor_c, second: { title: "slow pace", line: (s) => s.motor_slow_c } },
+  { key: "charge", title: "Battery (dashed: at the worse pace), %", line: (s) => s.charge_percent, second: { title: "worse pace", line: (s) => s.charge_low_percent }, limit: "min_charge_percent" },
+  { key: "motor", title: "Hottest drive motor, an envelope (dashed: at the slow pace), degC", line: (s) => s.motor_c, second: { title: "slow pace", line: (s) => s.motor_slow_c } },
   { key: "in_out", title: "Power in and out (dashed), W", line: (s) => s.in_w, second: { title: "out", line: (s) => s.out_w } },
   { key: "sun", title: "Sun over the ground's horizon, deg", line: (s) => s.sun_over_horizon_deg },
 ];

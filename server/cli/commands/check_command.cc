@@ -80,7 +80,9 @@ int check_file(CheckOptions options, const Pictures& pictures) {
   const auto given = check_request(options);
   if (!given) return refuse(given.error());
   return ask_and_print(options.ask, pictures, file->request_with(*given), &Inquiry::check, &check_table,
-                       &check_status, [&](Error error) { return file->placed(std::move(error), *given); });
+                       &check_status, [&](Error error) {
+                         return file->placed(placed_on_command_line(options.drive)(std::move(error)), *given);
+                       });
 }
 
 }  // namespace
@@ -106,7 +108,7 @@ int check(const CheckOptions& given) {
   if (!options.commands_file.empty()) return check_file(std::move(options), pictures);
   return ask_and_print(options.ask, pictures,
                        options.request.empty() ? check_request(options) : read_request(options.request),
-                       &Inquiry::check, &check_table, &check_status);
+                       &Inquiry::check, &check_table, &check_status, placed_on_command_line(options.drive));
 }
 
 namespace {

@@ -75,6 +75,19 @@ int compare_plans(const PlanOptions& nominal, const Result<std::string>& nominal
   return deliver({}, *printed + (nominal.ask.json ? "\n" : ""));
 }
 
+// What comes before a request of options: places in degrees are brought to the map, and kernels become a sky.
+Result<void> prepare(PlanOptions& options) {
+  if (!options.request.empty()) return {};
+  if (options.drive.lonlat) {
+    std::vector<PlaceOption*> places;
+    for (auto* const end : {&options.start, &options.goal})
+      if (*end) places.push_back(&**end);
+    for (PlaceOption& place : options.via) places.push_back(&place);
+    if (auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought) return brought;
+  }
+  return make_sky(options.ask, options.drive, options.start ? &*options.start : nullptr);
+}
+
 }  // namespace
 
 int plan(const PlanOptions& given) {
@@ -82,18 +95,7 @@ int plan(const PlanOptions& given) {
   if (!rover) return refuse(rover.error());
   PlanOptions options = given;
   options.drive.rover = *rover;
-  if (options.drive.lonlat && options.request.empty()) {
-    std::vector<PlaceOption*> places;
-    for (auto* const end : {&options.start, &options.goal})
-      if (*end) places.push_back(&**end);
-    for (PlaceOption& place : options.via) places.push_back(&place);
-    if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
-      return refuse(brought.error());
-  }
-  if (options.request.empty())
-    if (const auto made = make_sky(options.ask, options.drive, options.start ? &*options.start : nullptr);
-        !made)
-      return refuse(made.error());
+  if (const auto prepared = prepare(options); !prepared) return refuse(prepared.error());
   const auto request_of = [](const PlanOptions& o) {
     return o.request.empty() ? plan_request(o) : read_request(o.request);
   };
@@ -107,19 +109,19 @@ int plan(const PlanOptions& given) {
   Pictures pictures = pictures_of(options.drive);
   pictures.commands = options.commands;
   pictures.route = options.route;
-  return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status);
+  return ask_and_print(options.ask, pictures, request, &Inquiry::plan, &plan_table, &plan_status,
+                       placed_on_command_line(options.drive));
 }
 
 int sol(const PlanOptions& given) {
   PlanOptions options = given;
-  if (options.request.empty())
-    if (const auto made = make_sky(options.ask, options.drive, options.start ? &*options.start : nullptr);
-        !made)
-      return refuse(made.error());
+  if (const auto prepared = prepare(options); !prepared) return refuse(prepared.error());
   const auto request = options.request.empty() ? plan_request(options) : read_request(options.request);
   Pictures pictures;
   pictures.report = options.report;
-  return ask_and_print(options.ask, pictures, request, &Inquiry::sol, &sol_table, &check_status);
+  pictures.commands = options.commands;
+  return ask_and_print(options.ask, pictures, request, &Inquiry::sol, &sol_table, &check_status,
+                       placed_on_command_line(options.drive));
 }
 
 namespace {
@@ -141,6 +143,13 @@ void add_ends(CLI::App& command, PlanOptions& options) {
   add_places(command, "--via", options.via, "waypoints in order");
 }
 
+CLI::Option* add_commands_file(CLI::App& command, PlanOptions& options) {
+  return command.add_option(
+      "--commands", options.commands,
+      "write the commands of the best route to this file: a table where it ends in .csv, otherwise the whole "
+      "request of a check (JSON)");
+}
+
 }  // namespace
 
 void add_sol_command(CLI::App& app, std::function<int()>& run) {
@@ -155,6 +164,7 @@ void add_sol_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");
   command->add_option("--report", options->report, "write the page to this file (HTML)");
+  add_commands_file(*command, *options);
   command->footer(
       "Example:\n  slipway sol --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --depart "
       "2016-03-22T00:00:00Z..2016-03-23T00:00:00Z --day min_sun_deg=10 --report sol.html");
@@ -185,10 +195,7 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
       "dearest of them");
   command->add_option("--tail", options->tail,
                       "share of the draws of which cvar is the mean; 0.1 where not given");
-  CLI::Option* const commands = command->add_option(
-      "--commands", options->commands,
-      "write the commands of the best route to this file: a table where it ends in .csv, otherwise the whole "
-      "request of a check (JSON)");
+  CLI::Option* const commands = add_commands_file(*command, *options);
   commands->excludes(command->get_option("--compare"));
   command->add_option("--route", options->route, "whose commands, by rank; 1 where not given")
       ->needs(commands);

@@ -56,7 +56,8 @@ int predict(const PredictOptions& given) {
   pictures.history = options.plot;
   return ask_and_print(options.ask, pictures,
                        options.request.empty() ? prediction_request(options) : read_request(options.request),
-                       &Inquiry::predict, &prediction_table, &prediction_status);
+                       &Inquiry::predict, &prediction_table, &prediction_status,
+                       placed_on_command_line(options.drive));
 }
 
 namespace {

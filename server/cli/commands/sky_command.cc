@@ -100,14 +100,14 @@ std::string printed_kernels(api::json::Writer& w, const Answer& answer) {
       bearing_lines({{"Sun", seen.sun}, {"Earth", *seen.earth}});
   if (answer.table)
     out += fmt::format("Table: {} moments from {} to {}\n", answer.table->size(),
-                       utc_text(answer.table->front().utc_ms), utc_text(answer.table->back().utc_ms));
+                       utc_words(answer.table->front().utc_ms), utc_words(answer.table->back().utc_ms));
   return out;
 }
 
 std::string printed(const Answer& answer, bool json) {
   api::json::Writer w;
   w.begin_object().text("format", "sky/1").text("at", utc_text(answer.utc_ms));
-  std::string out = fmt::format("At {} (UTC)\n", utc_text(answer.utc_ms));
+  std::string out = fmt::format("At {}\n", utc_words(answer.utc_ms));
   if (answer.place.degrees)
     w.significant("longitude_deg", answer.place.degrees->x)
         .significant("latitude_deg", answer.place.degrees->y);

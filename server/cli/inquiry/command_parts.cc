@@ -61,9 +61,11 @@ std::string in_one_line(const Error& error) {
 
 int refuse(const Error& error) {
   std::cerr << error_text(error);
-  const bool of_the_question = error.code == ErrorCode::kInvalidRequest ||
-                               error.code == ErrorCode::kMalformedJson ||
-                               error.code == ErrorCode::kPayloadTooLarge;
+  // Ground that is not known is the question's fault where it has places.
+  const bool of_the_question =
+      error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ||
+      error.code == ErrorCode::kPayloadTooLarge || error.code == ErrorCode::kOffMap ||
+      (error.code == ErrorCode::kNoData && !error.faults.empty());
   return of_the_question ? 2 : 1;
 }
 

@@ -55,7 +55,9 @@ Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool
 }
 
 Result<std::string> commands_of(const std::string& answer, const Pictures& pictures) {
-  const api::json::JsonValue plan = read_answer(answer);
+  const api::json::JsonValue document = read_answer(answer);
+  const api::json::JsonValue* const of_sol = document.find("plan");
+  const api::json::JsonValue& plan = of_sol != nullptr ? *of_sol : document;
   if (pictures.commands.ends_with(".csv")) return api::json::commands_table(plan, pictures.route);
   auto request = api::json::check_of_route(plan, pictures.route);
   if (!request) return request;
@@ -122,7 +124,7 @@ Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOpt
   if (start == nullptr)
     return refused("a sky of kernels is made over the place where the drive starts: give --start, or --path");
   const auto times = time_span("--depart", *drive.depart);
-  if (!times) return fail(times.error());
+  if (!times) return {};  // whoever reads the request names it, beside what else is wrong
   const auto service = inquiry(ask);
   if (!service) return fail(service.error());
   const auto map = map_of(**service, drive.terrain);
@@ -148,7 +150,7 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view, bool why),
                   ExitStatus (*verdict)(std::string_view), const std::function<Error(Error)>& placed) {
-  if (!request) return refuse(request.error());
+  if (!request) return refuse_unreadable(request.error());
   const auto service = inquiry(ask);
   if (!service) return refuse(service.error());
   Result<std::string> answer;

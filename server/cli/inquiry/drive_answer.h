@@ -21,7 +21,7 @@ struct Pictures {
   std::string csv = {};                 // of the stations
   std::string gpkg = {}, geojson = {};  // of routes and stations
   bool lonlat = false;                  // the GeoJSON in degrees
-  std::string commands = {};            // of a plan: those of a route, CSV where it ends in .csv, else JSON
+  std::string commands = {};            // of a plan or a sol: those of a route, CSV in .csv, else JSON
   int route = 1;                        // whose commands
 };
 
@@ -34,7 +34,8 @@ Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
                           const std::vector<PlaceOption*>& places);
 
 // Where --sky names kernels, makes the table of sun and Earth over the place where the drive starts: from the
-// first departure until ten days and the light that is to be left behind the last. `start` may be null where
+// first departure until ten days and the light that is to be left behind the last; none where --depart is no
+// time, which the request's reader says. `start` may be null where
 // the request's file or the telemetry says it; then it must be given. Errors: those of inquiry(); not_found;
 // of reading and using the kernels, as invalid_request.
 Result<void> make_sky(const AskOptions& ask, DriveOptions& drive, const PlaceOption* start);

@@ -122,7 +122,8 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
   command
       .add_option("--day", drive.day,
                   "what is asked and known of the day, NAME=VALUE: every_min, charge_percent, optical_depth, "
-                  "min_charge_percent, min_sun_deg, min_earth_deg, light_left_h, arrive_by")
+                  "min_charge_percent, min_sun_deg, min_earth_deg, light_left_h, arrive_by, air.coldest_c, "
+                  "air.warmest_c")
       ->needs(depart);
   command
       .add_option("--sky", drive.sky,

@@ -17,10 +17,13 @@
 #include "api/documents/drive_so_far.h"
 #include "api/files/soil_file.h"
 #include "api/files/telemetry_csv.h"
+#include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/requests/plan_request.h"
+#include "core/fault_words.h"
 #include "core/utc.h"
 #include "server/cli/inquiry/command_parts.h"
+#include "server/cli/inquiry/kernel_files.h"
 #include "server/cli/inquiry/zone_option.h"
 #include "server/cli/terminal/interruption.h"
 
@@ -87,15 +90,11 @@ Result<void> write_files(Writer& w, const DriveOptions& drive) {
   return {};
 }
 
-Result<void> write_departure(Writer& w, const DriveOptions& drive) {
-  if (!drive.depart) return {};
-  const auto times = time_span("--depart", *drive.depart);
-  if (!times) return fail(times.error());
-  w.key("departure").begin_object().text("from", times->from).text("to", times->to);
-  for (const std::string& setting : drive.day) write_setting(w, setting);
+// The table of the sky that --sky names, into a departure that is open.
+Result<void> write_sky_option(Writer& w, const DriveOptions& drive) {
   if (!drive.sky_of_kernels.empty()) {
     api::json::write_sky(w.key("sky"), drive.sky_of_kernels);
-  } else if (!drive.sky.empty()) {
+  } else if (!drive.sky.empty() && std::none_of(drive.sky.begin(), drive.sky.end(), is_kernel_file)) {
     if (drive.sky.size() > 1)
       return fail(ErrorCode::kInvalidRequest,
                   fmt::format("--sky has {} files, of which none is a SPICE kernel: a table is one file",
@@ -112,6 +111,38 @@ Result<void> write_departure(Writer& w, const DriveOptions& drive) {
     }
     write_value(w.key("sky"), *moments);
   }
+  return {};
+}
+
+// "air.coldest_c=-80" is a key of the departure's air, "min_sun_deg=5" one of its own.
+void write_day(Writer& w, const std::vector<std::string>& day) {
+  constexpr std::string_view kAir = "air.";
+  bool has_air = false;
+  for (const std::string& setting : day)
+    if (setting.starts_with(kAir))
+      has_air = true;
+    else
+      write_setting(w, setting);
+  if (!has_air) return;
+  w.key("air").begin_object();
+  for (const std::string& setting : day)
+    if (setting.starts_with(kAir)) write_setting(w, setting.substr(kAir.size()));
+  w.end_object();
+}
+
+// "FROM..TO" as two texts, whatever they are; one text for both.
+std::pair<std::string, std::string> ends_of(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  return {text.substr(0, dots), text.substr(dots == std::string::npos ? 0 : dots + 2)};
+}
+
+// Times that are none are left to the request's reader, which names them beside what else is wrong.
+Result<void> write_departure(Writer& w, const DriveOptions& drive) {
+  if (!drive.depart) return {};
+  const auto [from, to] = ends_of(*drive.depart);
+  w.key("departure").begin_object().text("from", from).text("to", to);
+  write_day(w, drive.day);
+  if (auto written = write_sky_option(w, drive); !written) return written;
   w.end_object();
   return {};
 }
@@ -125,17 +156,42 @@ void write_place(Writer& w, const PlaceOption& place) {
 }
 
 Result<TimeSpan> time_span(std::string_view option, const std::string& text) {
-  const std::size_t dots = text.find("..");
-  TimeSpan span{text.substr(0, dots), text.substr(dots == std::string::npos ? 0 : dots + 2)};
+  const auto [from, to] = ends_of(text);
+  TimeSpan span{from, to};
   for (const auto& [time, into] : {std::pair{&span.from, &span.from_ms}, {&span.to, &span.to_ms}}) {
     const auto at = utc_of_text(*time);
-    if (!at)
-      return fail(ErrorCode::kInvalidRequest, fmt::format("{} {}: \"{}\" is no time; give FROM..TO, such as "
-                                                          "2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
-                                                          option, text, *time));
+    if (!at) {
+      const std::string why =
+          fmt::format("{} is no time; give FROM..TO, such as 2016-03-22T09:00:00Z..2016-03-22T14:00:00Z",
+                      in_quotes(*time));
+      return fail(ErrorCode::kInvalidRequest, fmt::format("{} {}: {}", option, text, why),
+                  {{std::string(option), why}});
+    }
     *into = *at;
   }
   return span;
+}
+
+std::function<Error(Error)> placed_on_command_line(const DriveOptions& drive) {
+  return [drive](Error error) {
+    for (Fault& fault : error.faults)
+      if (!drive.day.empty() && fault.pointer == "/departure/air")
+        fault.message += ": on the command line --day air.coldest_c=-80 --day air.warmest_c=-10";
+    const auto times = drive.depart ? time_span("--depart", *drive.depart) : Result<TimeSpan>(TimeSpan());
+    if (times) return error;
+    // No sky was made of kernels for these times, and none is missing.
+    const bool has_kernels = std::any_of(drive.sky.begin(), drive.sky.end(), is_kernel_file);
+    const auto is_time = [&](const Fault& fault) {
+      return fault.pointer == "/departure/from" || fault.pointer == "/departure/to" ||
+             (has_kernels && fault.pointer == "/departure/sky");
+    };
+    const auto first = std::find_if(error.faults.begin(), error.faults.end(), is_time);
+    if (first == error.faults.end()) return error;
+    *first = {"--depart", times.error().faults.front().message};
+    error.faults.erase(std::remove_if(first, error.faults.end(), is_time), error.faults.end());
+    error.detail = api::summary_of(error.faults);
+    return error;
+  };
 }
 
 Result<void> write_drive(Writer& w, const DriveOptions& drive) {

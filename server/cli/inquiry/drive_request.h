@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,10 @@ struct TimeSpan {
 };
 // Errors: invalid_request with the option's name.
 Result<TimeSpan> time_span(std::string_view option, const std::string& text);
+
+// Of an error of a request that these options wrote: where its faults stand on the command line, with what is
+// to be given there.
+std::function<Error(Error)> placed_on_command_line(const DriveOptions& drive);
 
 void write_place(api::json::Writer& w, const PlaceOption& place);
 

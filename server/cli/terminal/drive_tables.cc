@@ -7,8 +7,10 @@
 
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
-#include "api/json/writer.h"
+#include "api/report/day_words.h"
 #include "api/report/verdict_sections.h"
+#include "core/number_words.h"
+#include "core/utc.h"
 #include "planner/problem/verdict.h"
 #include "server/cli/terminal/tables.h"
 #include "server/cli/terminal/text_table.h"
@@ -166,11 +168,11 @@ std::string rules_table(const JsonValue& outcomes) {
     const JsonValue& value = at(rule, "value");
     const std::string& unit = text(rule, "unit") == "1" ? std::string() : " " + text(rule, "unit");
     const bool trips = !is_null(at(rule, "from_m"));
-    table.add({text(rule, "rule"), fmt::format("{:.3g}{}", number(rule, "limit"), unit),
-               fmt::format("{:.3g}, {:.3g}, {:.3g}", number(value, "p05"), number(value, "p50"),
-                           number(value, "p95")),
+    table.add({text(rule, "rule"), plain_number(number(rule, "limit")) + unit,
+               fmt::format("{}, {}, {}", plain_number(number(value, "p05")),
+                           plain_number(number(value, "p50")), plain_number(number(value, "p95"))),
                share_words(at(rule, "trips")),
-               trips ? fmt::format("{:.3g}", number(at(rule, "tripping_value"), "p50")) : "-",
+               trips ? plain_number(number(at(rule, "tripping_value"), "p50")) : "-",
                trips ? fmt::format("{:.1f} m", number(rule, "from_m")) : "-",
                trips ? fmt::format("{:.1f} m", number(rule, "to_m")) : "-",
                is_null(at(rule, "wheel")) ? "-" : text(rule, "wheel"),
@@ -194,30 +196,30 @@ std::string advice_lines(const JsonValue& decision) {
   return out;
 }
 
-// "2016-03-22 09:15" of a time of UTC.
-std::string to_the_minute(const std::string& time) {
-  return time.substr(0, 10) + " " + time.substr(11, 5);
-}
-
 // The windows and the best departure of a decision that has them.
 std::string departure_lines(const JsonValue& decision) {
   const JsonValue* const departures = decision.find("departures");
   if (departures == nullptr) return {};
   std::string out;
-  for (const JsonValue& window : at(*departures, "windows").elements)
-    out += fmt::format("Depart between {} and {} UTC\n", text(window, "from").substr(0, 19),
-                       text(window, "to").substr(0, 19));
+  for (const JsonValue& window : at(*departures, "windows").elements) {
+    const planner::DepartureWindow told = api::told_window(window);
+    out += told.from_ms == told.to_ms
+               ? fmt::format("Depart at {}\n", utc_words(told.from_ms))
+               : fmt::format("Depart between {} and {}\n", utc_words(told.from_ms), utc_words(told.to_ms));
+  }
   const JsonValue& best = at(*departures, "best");
   const bool holds = !is_null(best);
   const JsonValue& drive = holds ? best : at(*departures, "nearest");
   if (out.empty() && !holds) out += "No departure keeps what is asked of the day\n";
+  const auto arrival = [&](std::string_view key) {
+    return utc_words(minute_after(api::time_of(drive, key)));
+  };
   out += fmt::format(
-      "{}: depart {}, arrive {} (slow pace {}), sunlit {:.0f} % of the time, battery {:.0f} % at the arrival "
-      "({:.0f} % at the worse pace)\n",
-      holds ? "Best" : "Nearest", to_the_minute(text(drive, "departs")),
-      to_the_minute(text(drive, "arrives")), to_the_minute(text(drive, "arrives_late")),
-      100.0 * number(drive, "lit_share"), number(drive, "charge_percent"),
-      number(drive, "charge_low_percent"));
+      "{}: depart {}, arrive {} (at the slow pace, which 95 % of the draws keep, {}), sunlit {:.0f} % of the "
+      "time, {}\n",
+      holds ? "Best" : "Fewest rules broken", utc_words(api::time_of(drive, "departs")), arrival("arrives"),
+      arrival("arrives_late"), 100.0 * number(drive, "lit_share"), api::battery_words(drive, 0));
+  if (const auto in_time = api::in_time_words(drive)) out += fmt::format("In time: {}\n", *in_time);
   return out;
 }
 
@@ -238,7 +240,7 @@ std::string day_lines(const JsonValue& decision) {
   for (const JsonValue& rule : at(is_null(best) ? at(*departures, "nearest") : best, "rules").elements)
     out += fmt::format("Rule of the day: {}: {}\n", text(rule, "words"),
                        planner::verdict_words(text(rule, "verdict")));
-  return out;
+  return out + fmt::format("{}\n", api::kPaceWords);
 }
 
 // Behind the end of the path, beside it, and off its heading.
@@ -320,43 +322,6 @@ Result<std::string> plan_table(std::string_view answer, bool why) {
   out += measured_line(*document) + unseen_line(*document);
   if (summary.empty()) return out;
   return why ? out + why_routes(*document) + learnt_lines(*document) : out + "Say more: --why\n";
-}
-
-namespace {
-
-// " from 2016-03-22 09:41 on with 57 %", of a check with a departure.
-std::string begun(const JsonValue& check) {
-  const JsonValue& departure = at(at(check, "request"), "departure");
-  if (is_null(departure)) return {};
-  return fmt::format(" from {} on with {:.0f} % in the battery", to_the_minute(text(departure, "from")),
-                     number(departure, "charge_percent"));
-}
-
-}  // namespace
-
-Result<std::string> sol_table(std::string_view answer, bool why) {
-  const auto document = read(answer);
-  if (!document) return fail(document.error());
-  api::json::Writer plan;
-  api::json::write_value(plan, at(*document, "plan"));
-  auto out = plan_table(plan.take(), why);
-  if (!out) return out;
-  const auto place_line = [](const char* what, const JsonValue& place) {
-    return fmt::format("{} {:.1f} m, at ({:.1f}, {:.1f}): {}\n", what, number(place, "at_m"),
-                       number(place, "x_m"), number(place, "y_m"), text(place, "why"));
-  };
-  for (const JsonValue& check : at(*document, "checks").elements)
-    *out += place_line("Check the slip before", check);
-  for (const auto& [key, what] :
-       {std::pair{"time_runs_out", "Time runs out at"}, {"worst", "The worst place is at"}})
-    if (!is_null(at(*document, key))) *out += place_line(what, at(*document, key));
-  const JsonValue& back = at(*document, "back_out");
-  if (!is_null(back))
-    *out += fmt::format(
-        "Backing out of it to the start{}: {}{}\n", begun(back),
-        planner::verdict_words(text(back, "verdict")),
-        at(back, "reasons").elements.empty() ? "" : ", " + at(back, "reasons").elements.front().text);
-  return out;
 }
 
 Result<std::string> check_table(std::string_view answer, bool why) {
