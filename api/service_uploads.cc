@@ -76,6 +76,7 @@ Result<TerrainOrder> read_terrain(const Service& service, std::string_view bytes
     reader.text("legend", json::kOptional, kUploadId, order.legend);
     if (reader.text("crs", json::kOptional, {.most = kMaxWords}, import.crs) && !import.crs.empty())
       if (const auto fault = dem::fault_of_crs_text(import.crs)) reader.fault("crs", "crs " + *fault);
+    reader.text("unit", json::kOptional, {.most = 64}, import.unit);
     reader.text("property", json::kOptional, {.most = 64}, import.property);
     std::size_t coordinates = 0;
     if (reader.choice("soil_coordinates", json::kOptional, {"lonlat", "map"}, coordinates) &&

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/text_encoding.h"
+
 namespace slipway {
 namespace {
 
@@ -29,10 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxShown = 40;
-  if (text.size() <= kMaxShown) return fmt::format("\"{}\"", text);
-  std::size_t end = kMaxShown;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return fmt::format("\"{}...\"", text.substr(0, end));
+  return fmt::format("\"{}\"", cut_to(std::string(text.substr(0, kMaxShown + 1)), kMaxShown));
 }
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& known) {

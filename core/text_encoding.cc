@@ -30,20 +30,6 @@ void append(std::string& utf8, char32_t character) {
   tail(0);
 }
 
-// How many bytes the UTF-8 character at `i` has; 0 where there is none.
-std::size_t length_of_character(std::string_view bytes, std::size_t i) {
-  const std::uint8_t first = byte_at(bytes, i);
-  const std::size_t length = first < 0x80                     ? 1
-                             : first >= 0xC2 && first < 0xE0  ? 2
-                             : first >= 0xE0 && first < 0xF0  ? 3
-                             : first >= 0xF0 && first <= 0xF4 ? 4
-                                                              : 0;
-  if (length == 0 || i + length > bytes.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k)
-    if ((byte_at(bytes, i + k) & 0xC0U) != 0x80U) return 0;
-  return length;
-}
-
 bool is_utf8(std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size();) {
     const std::size_t length = length_of_character(bytes, i);
@@ -98,6 +84,33 @@ bool looks_like_utf16(std::string_view bytes, std::size_t high) {
 }
 
 }  // namespace
+
+std::size_t length_of_character(std::string_view bytes, std::size_t i) {
+  const std::uint8_t first = byte_at(bytes, i);
+  const std::size_t length = first < 0x80                     ? 1
+                             : first >= 0xC2 && first < 0xE0  ? 2
+                             : first >= 0xE0 && first < 0xF0  ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  if (length == 0 || i + length > bytes.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte_at(bytes, i + k) & 0xC0U) != 0x80U) return 0;
+  if (length < 3) return length;
+  // Longer than needed, half of a UTF-16 pair, above the last character.
+  const std::uint8_t second = byte_at(bytes, i + 1);
+  const bool is_none = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                       (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+  return is_none ? 0 : length;
+}
+
+std::string cut_to(std::string text, std::size_t most) {
+  constexpr std::string_view kMark = "...";
+  if (text.size() <= most + (text.ends_with(kMark) ? kMark.size() : 0)) return text;
+  std::size_t end = most;
+  while (end > 0 && (byte_at(text, end) & 0xC0U) == 0x80U) --end;
+  text.resize(end);
+  return text.append(kMark);
+}
 
 std::optional<DecodedText> decode_text(std::string_view bytes) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kLittleMark = "\xFF\xFE", kBigMark = "\xFE\xFF";

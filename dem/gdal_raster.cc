@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/angle.h"
@@ -150,6 +153,21 @@ RasterCentre centre_of(GDALDataset& dataset, const GeoTransform& g) {
   return {g[0] + column * g[1] + row * g[2], g[3] + column * g[4] + row * g[5]};
 }
 
+// Of a text with less than a digit and a blank for each cell that its head promises: GDAL would look for the
+// others for minutes.
+std::optional<std::string> missing_cells(GDALDataset& dataset, const fs::path& path) {
+  if (std::string_view(dataset.GetDriverName()) != "AAIGrid") return std::nullopt;
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  const auto rows = static_cast<std::uintmax_t>(dataset.GetRasterYSize()),
+             columns = static_cast<std::uintmax_t>(dataset.GetRasterXSize());
+  if (error || bytes + 1 >= 2 * rows * columns) return std::nullopt;
+  return fmt::format(
+      "{} has {} bytes, which can't be the {} rows of {} numbers of its head: it was cut off, "
+      "or nrows and ncols are wrong",
+      path.filename().string(), bytes, rows, columns);
+}
+
 }  // namespace
 
 std::string describe(const CellWindow& window) {
@@ -169,6 +187,8 @@ Result<GDALDatasetUniquePtr> open_raster(const fs::path& path, const GdalSession
     std::array<double, 6> grid{};
     dataset->GetGeoTransform(grid.data());
     if (dataset->GetRasterCount() > 0) dataset->GetRasterBand(1)->GetNoDataValue();
+    if (auto missing = missing_cells(*dataset, *absolute))
+      return fail(ErrorCode::kUnreadableRaster, *std::move(missing));
     return dataset;
   }
   return fail(

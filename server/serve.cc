@@ -195,6 +195,7 @@ std::string folder_of(const std::string& file) {
 std::vector<ReadinessCheck> readiness_checks(const ServeOptions& options, api::JobStore& store,
                                              const std::optional<WorkerProcesses>& workers) {
   return {[&store]() -> std::optional<std::string> {
+            if (const auto there = store.in_place(); !there) return there.error().detail;
             const auto read = store.list(1);
             return read ? std::nullopt
                         : std::optional("the jobs' store does not answer: " + read.error().detail);
@@ -292,6 +293,8 @@ int serve(const ServeOptions& given) {
     if (const auto started = workers->start(); !started) return refuse(started.error());
   std::optional<HttpServer> server;
   RouteOptions of_routes{.admits = http.wants_body, .override_persons = options.override_persons};
+  if (!options.tokens.empty())
+    of_routes.knows_token = [&access](const std::string& token) { return (*access)->knows(token); };
   if (const std::string folder = folder_of(options.jobs); !folder.empty()) of_routes.drawing_folder = folder;
   std::vector<Route> routes = api_routes(**service, runner, of_routes);
   const Readiness readiness(readiness_checks(options, *jobs->store, workers));

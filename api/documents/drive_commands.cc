@@ -67,7 +67,9 @@ Result<const JsonValue*> row_of(const JsonValue& plan, int route) {
     return fail(ErrorCode::kInvalidRequest, why, {{"/route", why}});
   }
   const JsonValue& row = summary->elements[static_cast<std::size_t>(route) - 1];
-  if (row.find("commands") != nullptr) return &row;
+  if (row.find("commands") != nullptr && row.find("start") != nullptr && plan.find("request") != nullptr &&
+      plan.find("terrain") != nullptr && plan.find("rover") != nullptr)
+    return &row;
   const std::string why = "the plan was made by an earlier version, whose routes have no commands";
   return fail(ErrorCode::kInvalidRequest, why, {{"/route", why}});
 }

@@ -1,5 +1,6 @@
 #include "api/documents/job_document.h"
 
+#include "api/json/problem_document.h"
 #include "api/json/writer.h"
 #include "core/utc.h"
 
@@ -40,7 +41,9 @@ std::string write_job(const Job& job, const std::optional<std::string>& problem,
     if (queue->shortage) w.text("shortage", *queue->shortage);
     w.end_object();
   }
-  if (job.state == JobState::kFailed && problem) w.key("problem").raw(*problem);
+  constexpr std::size_t kLong = std::size_t{1} << 20U;  // of a program that did not bound it
+  if (job.state == JobState::kFailed && problem)
+    w.key("problem").raw(problem->size() > kLong ? write_problem(read_problem(*problem)) : *problem);
   w.end_object();
   return w.take();
 }

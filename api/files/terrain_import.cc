@@ -155,10 +155,21 @@ Result<void> import_maps(const TerrainImport& order, const fs::path& folder, Imp
   return {};
 }
 
+// With their digests.
+Result<std::vector<TerrainFile>> written_maps(const ImportedTerrain& made, const fs::path& folder) {
+  std::vector<TerrainFile> maps{{.name = "elevation.tif", .sha256 = made.elevation_sha256}};
+  if (!made.soil) return maps;
+  const auto soil = sha256_of_file(folder / made.soil_file);
+  if (!soil) return fail(soil.error());
+  maps.push_back({.name = made.soil_file, .sha256 = *soil});
+  return maps;
+}
+
 // In the child: everything but the last rename. The answer is the text, a zero byte and the JSON.
 Result<std::string> make_folder_of(const TerrainImport& order, ImportedTerrain made, const fs::path& folder,
                                    Progress& progress) {
-  if (const auto maps = import_maps(order, folder, made, progress); !maps) return fail(maps.error());
+  if (const auto imported = import_maps(order, folder, made, progress); !imported)
+    return fail(imported.error());
   const auto gravity = order.gravity_m_s2 ? order.gravity_m_s2 : gravity_of(made.elevation.info.body);
   if (!gravity)
     return fail(ErrorCode::kInvalidRequest, "The body of this map is not known.",
@@ -166,10 +177,13 @@ Result<std::string> make_folder_of(const TerrainImport& order, ImportedTerrain m
   made.gravity_m_s2 = *gravity;
   made.title = order.title.empty() ? made.name : order.title;
   const std::string document = terrain_document(order, made);
+  const auto maps = written_maps(made, folder);
+  if (!maps) return fail(maps.error());
   if (const auto read = json::read_terrain_file(document); !read)
     return fail(ErrorCode::kInvalidRequest, read.error().detail, read.error().faults);
-  for (const auto& [file, text] :
-       {std::pair{"terrain.json", document}, {"PROVENANCE.md", provenance_text(order, made)}})
+  for (const auto& [file, text] : {std::pair{std::string("terrain.json"), document},
+                                   {"PROVENANCE.md", provenance_text(order, made)},
+                                   {kDigestsFile, digests_document(*maps)}})
     if (const auto written = write_whole_file(folder / file, text); !written) return fail(written.error());
   if (!order.origin.empty())
     if (const auto written = write_whole_file(folder / "upload.json", order.origin); !written)

@@ -1,6 +1,7 @@
 #include "api/files/terrain_site.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,11 @@
 
 #include "api/files/slip_steps_file.h"
 #include "api/files/terrain_file.h"
+#include "api/files/whole_file.h"
 #include "api/json/faults.h"
+#include "api/json/parse.h"
+#include "api/json/strict_reader.h"
+#include "api/json/writer.h"
 #include "core/sha256.h"
 
 namespace slipway::api {
@@ -84,7 +89,39 @@ Result<TerrainFile> read_through(const std::filesystem::path& path) {
   return file;
 }
 
+// Of the import's digests; none where the terrain was made otherwise.
+Result<std::map<std::string, std::string>> read_digests(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> digests;
+  if (!is_plain_file(folder / kDigestsFile)) return digests;
+  const auto bytes = read_data_file(folder / kDigestsFile);
+  if (!bytes) return fail(bytes.error());
+  const auto document = json::parse(*bytes);
+  if (!document) return fail(document.error());
+  std::vector<Fault> faults;
+  json::ObjectReader reader(*document, "", faults);
+  std::size_t format = 0;
+  reader.choice("format", json::kRequired, {"digests/1"}, format);
+  for (const json::Element& element : reader.list("files", json::kRequired, {0, 100})) {
+    json::ObjectReader file = reader.object(element);
+    std::string name, sha256;
+    file.text("name", json::kRequired, {.most = 100}, name);
+    file.text("sha256", json::kRequired, {.most = 64}, sha256);
+    digests[name] = sha256;
+  }
+  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
+  return digests;
+}
+
 }  // namespace
+
+std::string digests_document(const std::vector<TerrainFile>& files) {
+  json::Writer w;
+  w.begin_object().text("format", "digests/1").key("files").begin_array();
+  for (const TerrainFile& file : files)
+    w.begin_object().text("name", file.name).text("sha256", file.sha256).end_object();
+  w.end_array().end_object();
+  return w.take() + "\n";
+}
 
 Result<std::string> read_data_file(const std::filesystem::path& path) {
   std::error_code error;
@@ -119,6 +156,11 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
                                            in_quotes(site->description_.name), folder.filename().string())});
   }
   check_files(folder, site->description_, faults);
+  if (auto digests = read_digests(folder))
+    site->digests_ = *std::move(digests);
+  else
+    faults.push_back({"", fmt::format("{} can't be read ({}): import the terrain again", kDigestsFile,
+                                      digests.error().detail)});
   if (faults.empty()) {
     auto elevation = dem::open_elevation(folder / site->description_.elevation_file);
     if (elevation) {
@@ -177,7 +219,27 @@ Result<std::string> TerrainSite::version_of_files() const {
   return hash.digest().substr(0, kDigits);
 }
 
+Result<void> TerrainSite::unaltered() const {
+  const std::scoped_lock lock(stamps_mutex_);
+  for (const auto& [name, sha256] : digests_) {
+    struct ::stat status {};
+    const bool there = ::stat((folder_ / name).c_str(), &status) == 0;
+    const Stamp now{status.st_size,
+                    std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
+                    status.st_ino};
+    if (const auto known = stamps_.find(name); there && known != stamps_.end() && known->second == now)
+      continue;
+    if (const auto found = sha256_of_file(folder_ / name); !there || !found || *found != sha256)
+      return fail(ErrorCode::kDamagedStore,
+                  fmt::format("{} of the terrain {} is not what was imported: import the terrain again", name,
+                              description_.name));
+    stamps_[name] = now;
+  }
+  return {};
+}
+
 Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& legend) const {
+  if (const auto same = unaltered(); !same) return fail(same.error());
   auto terrain = elevation_->read(clipped(extent, info().geometry.extent()));
   if (!terrain) return fail(terrain.error());
   auto soil_map = soils_over((*terrain)->geometry(), legend, (*terrain)->is_read_by_tiles());
@@ -187,6 +249,7 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& 
 
 Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::read_soils(const dem::Extent& extent,
                                                                     const Legend& legend, int step) const {
+  if (const auto same = unaltered(); !same) return fail(same.error());
   const dem::GridGeometry& all = info().geometry;
   const auto window = all.window(clipped(extent, all.extent()));
   if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the terrain.");
@@ -196,6 +259,7 @@ Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::read_soils(const dem::E
 Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_for_pictures(const dem::Extent& extent,
                                                                             const Legend& legend,
                                                                             int step) const {
+  if (const auto same = unaltered(); !same) return fail(same.error());
   const dem::GridGeometry& all = info().geometry;
   if (static_cast<long long>(all.rows) * all.columns > kMostKeptSoilCells)
     return read_soils(extent, legend, step);
@@ -238,6 +302,7 @@ Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_over(const dem::G
 
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_samples(const dem::Extent& extent,
                                                                       int step) const {
+  if (const auto same = unaltered(); !same) return fail(same.error());
   return elevation_->read_samples(clipped(extent, info().geometry.extent()), step);
 }
 
@@ -273,6 +338,7 @@ std::optional<dem::MapPlace> TerrainSite::degrees_at(const dem::MapPlace& place)
 }
 
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_elevation(const dem::Extent& extent) const {
+  if (const auto same = unaltered(); !same) return fail(same.error());
   return elevation_->read(clipped(extent, info().geometry.extent()));
 }
 

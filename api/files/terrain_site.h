@@ -34,7 +34,14 @@ struct TerrainFile {
   std::string sha256;  // 64 hexadecimal digits
 };
 
-// A terrain that the service ships: described, opened, read by windows. Thread-safe.
+// The file beside an imported terrain's terrain.json that has the SHA-256 of its maps.
+inline constexpr const char* kDigestsFile = "digests.json";
+// "digests/1" of files as they are now. Only their names and digests are written.
+std::string digests_document(const std::vector<TerrainFile>& files);
+
+// A terrain that the service ships: described, opened, read by windows. Maps of which the import has kept
+// digests are compared with them before the first read, and before the next one when a file has another size,
+// time or place on the disk: every read fails with damaged_store where they are others. Thread-safe.
 class TerrainSite {
  public:
   // Reads and checks terrain.json, opens the elevation, reads the stops. All faults together,
@@ -67,6 +74,9 @@ class TerrainSite {
   // for every `step` along each side.
   Result<std::shared_ptr<const dem::SoilMap>> soils_for_pictures(const dem::Extent& extent,
                                                                  const Legend& legend, int step) const;
+  // Whether its maps are what was imported; so are those without digests. Errors: damaged_store with the file
+  // and what to do.
+  Result<void> unaltered() const;
   // Elevation only, thinned for pictures: see dem::ElevationSource::read_samples.
   Result<std::shared_ptr<const dem::Terrain>> read_samples(const dem::Extent& extent, int step) const;
   // The files that terrain.json names, with itself first, and LICENSE where there is one. Reads them through.
@@ -81,6 +91,13 @@ class TerrainSite {
   Result<std::shared_ptr<const dem::Terrain>> read_around(double x_m, double y_m, double radius_m) const;
 
  private:
+  // By which a file is known again without reading it.
+  struct Stamp {
+    std::int64_t bytes = 0, changed_ns = 0;
+    std::uint64_t inode = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+
   TerrainSite() = default;
 
   std::vector<std::string> file_names() const;
@@ -97,6 +114,9 @@ class TerrainSite {
   std::vector<Stop> stops_;
   DriveOutcomeTable outcomes_;
   std::vector<steps::SlipStep> steps_;
+  std::map<std::string, std::string> digests_;  // by the file's name
+  mutable std::mutex stamps_mutex_;
+  mutable std::map<std::string, Stamp> stamps_;  // of files that were as their digests say
   mutable std::mutex kept_mutex_;
   mutable std::map<std::string, std::shared_ptr<const dem::SoilMap>> kept_soils_;  // by the legend's name
 };

@@ -91,6 +91,7 @@ class ArtefactJobStore final : public JobStore {
     return store_->place_in_queue(id, kinds);
   }
   Result<std::vector<JobCount>> counts() override { return store_->counts(); }
+  Result<void> in_place() override { return store_->in_place(); }
   Result<std::vector<Job>> list(std::size_t most) override { return store_->list(most); }
   void listen(StoreNews news, std::function<void()> call) override { store_->listen(news, std::move(call)); }
 

@@ -29,6 +29,17 @@ std::string outcome_digest(std::string_view id, std::string_view state, std::str
   return digest_of_parts({id, state, outcome});
 }
 
+std::string end_digest(const Job& job, std::string_view request_sha256, std::string_view outcome_sha256) {
+  const auto text = [](std::optional<std::int64_t> ms) { return ms ? fmt::format("{}", *ms) : ""; };
+  return digest_of_parts({job.id, job.kind, job.owner, describe(job.state), fmt::format("{}", job.attempt),
+                          text(job.created_ms), text(job.started_ms), text(job.ended_ms), job.whole,
+                          fmt::format("{}", job.part), request_sha256, outcome_sha256});
+}
+
+std::string altered_end(std::string_view id) {
+  return fmt::format("what is stored of job {} is not how it ended: ask again for what it was asked", id);
+}
+
 std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {
   return digest_of_parts({id, fmt::format("series {}", page), bytes});
 }

@@ -136,9 +136,13 @@ class JobStore {
   virtual ~JobStore() = default;
 
   // Once this returns, the job survives the process, and whatever else the implementation promises to
-  // survive. Errors: too_many_jobs, over_quota (the owner's) where as many are accepted or running already;
-  // invalid_request at /Idempotency-Key where the key names another request.
+  // survive. Errors: as in_place(); too_many_jobs, over_quota (the owner's) where as many are accepted or
+  // running already; invalid_request at /Idempotency-Key where the key names another request.
   virtual Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) = 0;
+
+  // Whether what is written now is found again. Errors: storage where the store's file was moved, removed or
+  // replaced while it was open.
+  virtual Result<void> in_place() { return {}; }
 
   // The clock by which leases are counted, in milliseconds since some beginning: the machine's start for a
   // store on one machine, the server's time where a database is shared by several.

@@ -15,9 +15,11 @@ namespace {
 // each, as they are materialised. {0} bounds the kinds.
 constexpr std::string_view kFirst =
     "waiting AS MATERIALIZED (SELECT sequence, urgency, whole, deaths, false AS is_late FROM slipway_jobs "
-    "WHERE state = 'accepted' {0} ORDER BY urgency, sequence LIMIT 1 FOR UPDATE SKIP LOCKED), "
+    "WHERE state = 'accepted' AND ended_ms IS NULL {0} ORDER BY urgency, sequence LIMIT 1 FOR UPDATE SKIP "
+    "LOCKED), "
     "late AS MATERIALIZED (SELECT sequence, urgency, whole, deaths, true AS is_late FROM slipway_jobs "
-    "WHERE state = 'running' AND lease_until_ms < $5 {0} ORDER BY urgency, sequence LIMIT 1 "
+    "WHERE state = 'running' AND lease_until_ms < $5 AND ended_ms IS NULL {0} ORDER BY urgency, sequence "
+    "LIMIT 1 "
     "FOR UPDATE SKIP LOCKED), "
     "first AS MATERIALIZED (SELECT * FROM (TABLE waiting UNION ALL TABLE late) AS either "
     "ORDER BY urgency, sequence LIMIT 1)";

@@ -45,14 +45,35 @@ void insert_series(PostgresConnection& connection, const Lease& lease,
   }
 }
 
+// A job without a digest has not ended, or did so in an older program.
+bool is_as_it_ended(const PostgresRows& rows, int row, const Job& job) {
+  const std::string kept = rows.text(row, kJobRowColumns - 1);
+  return kept.empty() || (has_ended(job.state) && kept == end_digest(job, rows.text(row, kJobRowColumns - 3),
+                                                                     rows.text(row, kJobRowColumns - 2)));
+}
+
+// end_digest() of a row that ends with the state {0} at the time {1} with an outcome of the digest {2}.
+constexpr std::string_view kEndDigest =
+    "encode(sha256(convert_to((SELECT string_agg(octet_length(convert_to(part, 'UTF8'))::text || ':' || "
+    "part, '' ORDER BY number) FROM unnest(ARRAY[job.id, job.kind, job.owner, {0}, job.attempt::text, "
+    "job.created_ms::text, coalesce(job.started_ms::text, ''), {1}, coalesce(job.whole, ''), "
+    "job.part::text, job.request_sha256, coalesce({2}, '')]::text[]) WITH ORDINALITY "
+    "AS parts (part, number)), 'UTF8')), 'hex')";
+
 }  // namespace
 
 PostgresValues held(const Lease& lease) {
   return PostgresValues().text(lease.id).number(lease.attempt).text(lease.worker);
 }
 
-bool has_known_state(const PostgresRows& rows, int row) {
-  return job_state(rows.text(row, 2)).has_value();
+bool is_whole(const PostgresRows& rows, int row) {
+  return job_state(rows.text(row, 2)).has_value() && is_as_it_ended(rows, row, job_of(rows, row));
+}
+
+Job told_job(const PostgresRows& rows, int row) {
+  Job job = job_of(rows, row);
+  if (is_as_it_ended(rows, row, job)) return job;
+  throw PostgresDamage(altered_end(job.id));
 }
 
 Job job_of(const PostgresRows& rows, int row) {
@@ -86,10 +107,16 @@ Job job_of(const PostgresRows& rows, int row) {
   return job;
 }
 
-std::vector<Job> jobs_of(const PostgresRows& rows) {
+std::vector<Job> told_jobs(const PostgresRows& rows) {
   std::vector<Job> jobs;
-  for (int row = 0; row < rows.count(); ++row) jobs.push_back(job_of(rows, row));
+  for (int row = 0; row < rows.count(); ++row) jobs.push_back(told_job(rows, row));
   return jobs;
+}
+
+std::optional<Job> told_from(PostgresConnection& connection, std::string_view id) {
+  const PostgresRows rows = connection.run(fmt::format("SELECT {} FROM slipway_jobs WHERE id = $1", kJobRow),
+                                           PostgresValues().text(id));
+  return rows.count() == 1 ? std::optional(told_job(rows, 0)) : std::nullopt;
 }
 
 std::optional<Job> get_from(PostgresConnection& connection, std::string_view id) {
@@ -115,17 +142,19 @@ std::vector<bool> end_jobs(PostgresConnection& connection, const std::vector<Job
   // One statement, so that nobody waits for a whole's row longer than it takes.
   static const std::string kEnd = fmt::format(
       "WITH ended AS (UPDATE slipway_jobs AS job SET state = new.state, outcome = new.outcome, "
-      "outcome_sha256 = new.sha256, ended_ms = $8, cpu_s = new.cpu_s, version = version + 1, "
+      "outcome_sha256 = new.sha256, ended_ms = $8::bigint, cpu_s = new.cpu_s, version = version + 1, "
+      "end_sha256 = {1}, "
       "progress = CASE new.state WHEN 'successful' THEN 1.0 ELSE progress END "
       "FROM unnest($1::text[], $2::bigint[], $3::text[], $4::text[], $5::bytea[], $6::text[], $7::float8[]) "
       "AS new (id, attempt, worker, state, outcome, sha256, cpu_s) WHERE job.id = new.id AND "
       "job.attempt = new.attempt AND job.worker = new.worker AND job.state = 'running' "
       "RETURNING job.id, job.whole, job.state, job.cpu_s), "
-      "counted AS ({}) SELECT id, (SELECT max(is_last) FROM counted) FROM ended",
+      "counted AS ({0}) SELECT id, (SELECT max(is_last) FROM counted) FROM ended",
       fmt::format(kCountEndedParts,
                   "SELECT whole, count(*) AS parts, count(*) FILTER (WHERE state <> 'successful') AS failed, "
                   "sum(cpu_s) AS cpu_s FROM ended WHERE whole IS NOT NULL GROUP BY whole",
-                  "$9", "$10"));
+                  "$9", "$10"),
+      fmt::format(kEndDigest, "new.state", "$8::bigint::text", "new.sha256"));
   const PostgresRows rows = connection.run(kEnd, PostgresValues()
                                                      .list(ids)
                                                      .list(attempts)
@@ -179,12 +208,13 @@ bool split_job(PostgresConnection& connection, const Lease& lease, const std::ve
 
 void dismiss_job(PostgresConnection& connection, std::string_view id, std::int64_t now) {
   constexpr std::string_view kDismiss =
-      "UPDATE slipway_jobs SET state = 'dismissed', ended_ms = $2, version = version + 1, worker = NULL "
-      "WHERE {} = $1 AND state IN ('accepted', 'running')";
-  const std::optional<Job> job = get_from(connection, id);
+      "UPDATE slipway_jobs AS job SET state = 'dismissed', ended_ms = $2::bigint, version = version + 1, "
+      "worker = NULL, end_sha256 = {1} WHERE {0} = $1 AND state IN ('accepted', 'running')";
+  const std::string digest = fmt::format(kEndDigest, "'dismissed'", "$2::bigint::text", "job.outcome_sha256");
+  const std::optional<Job> job = told_from(connection, id);
   const PostgresValues values = PostgresValues().text(id).number(now);
-  if (connection.run(fmt::format(kDismiss, "id"), values).changed() != 1) return;
-  connection.run(fmt::format(kDismiss, "whole"), values);
+  if (connection.run(fmt::format(kDismiss, "id", digest), values).changed() != 1) return;
+  connection.run(fmt::format(kDismiss, "whole", digest), values);
   if (!job || job->whole.empty()) return;
   connection.run(
       fmt::format(kCountEndedParts, "SELECT $1 AS whole, 1 AS parts, 1 AS failed, 0.0 AS cpu_s", "$2", "$3"),

@@ -42,7 +42,8 @@ constexpr std::array kTables{
   parts bigint NOT NULL DEFAULT 0,
   parts_ended bigint NOT NULL DEFAULT 0,
   parts_failed bigint NOT NULL DEFAULT 0,
-  parts_cpu_s double precision NOT NULL DEFAULT 0
+  parts_cpu_s double precision NOT NULL DEFAULT 0,
+  end_sha256 text
 ) WITH (fillfactor = 70, autovacuum_vacuum_scale_factor = 0.02, autovacuum_vacuum_threshold = 200))",
     "CREATE UNIQUE INDEX slipway_jobs_keys ON slipway_jobs (owner, idempotency_key) "
     "WHERE idempotency_key IS NOT NULL",
@@ -64,6 +65,14 @@ void make_tables(PostgresConnection& connection) {
   connection.run("INSERT INTO slipway_schema (version) VALUES ($1)", PostgresValues().number(kSchemaVersion));
 }
 
+// How jobs ended, in digests. Beside the versions: a program that does not know it does without.
+void make_room_for_ends(PostgresConnection& connection) {
+  const PostgresRows found = connection.run(
+      "SELECT attname::text FROM pg_attribute WHERE attrelid = to_regclass('slipway_jobs') AND "
+      "attname = 'end_sha256' AND NOT attisdropped");
+  if (found.count() == 0) connection.run("ALTER TABLE slipway_jobs ADD COLUMN end_sha256 text");
+}
+
 }  // namespace
 
 void settle_schema(PostgresConnection& connection) {
@@ -76,6 +85,7 @@ void settle_schema(PostgresConnection& connection) {
         "the database's tables of jobs are of a newer program (version {}, this one reads {}); use that "
         "program, or name another database with --jobs",
         found.count() == 1 ? found.number(0, 0) : 0, kSchemaVersion));
+  make_room_for_ends(connection);
   transaction.commit();
 }
 

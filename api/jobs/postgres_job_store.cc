@@ -150,7 +150,7 @@ class PostgresJobStore final : public JobStore {
 
   Result<std::vector<Job>> parts(std::string_view id) override {
     return quick_.run([&](PostgresConnection& connection) {
-      return jobs_of(
+      return told_jobs(
           connection.run(fmt::format("SELECT {} FROM slipway_jobs WHERE whole = $1 ORDER BY part", kJobRow),
                          PostgresValues().text(id)));
     });
@@ -177,7 +177,7 @@ class PostgresJobStore final : public JobStore {
     auto job = durable_.run([&](PostgresConnection& connection) {
       PostgresTransaction transaction(connection);
       dismiss_job(connection, id, now);
-      std::optional<Job> dismissed = get_from(connection, id);
+      std::optional<Job> dismissed = told_from(connection, id);
       transaction.commit();
       return dismissed;
     });
@@ -186,7 +186,7 @@ class PostgresJobStore final : public JobStore {
   }
 
   Result<std::optional<Job>> get(std::string_view id) override {
-    return quick_.run([&](PostgresConnection& connection) { return get_from(connection, id); });
+    return quick_.run([&](PostgresConnection& connection) { return told_from(connection, id); });
   }
 
   Result<std::optional<std::string>> request(std::string_view id) override {
@@ -281,8 +281,7 @@ class PostgresJobStore final : public JobStore {
           PostgresValues().number(static_cast<std::int64_t>(most)));
       std::vector<Job> jobs;
       for (int row = 0; row < rows.count(); ++row)
-        if (has_known_state(rows, row))
-          jobs.push_back(job_of(rows, row));  // a damaged one hides itself alone
+        if (is_whole(rows, row)) jobs.push_back(job_of(rows, row));  // a damaged one hides itself alone
       return jobs;
     });
   }

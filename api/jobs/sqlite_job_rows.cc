@@ -8,8 +8,39 @@
 
 namespace slipway::api {
 
-bool has_known_state(const SqliteStatement& row) {
-  return job_state(row.text(2)).has_value();
+namespace {
+
+constexpr int kRequestDigestColumn = 22, kOutcomeDigestColumn = 23, kEndDigestColumn = 24;
+
+// A job without a digest has not ended, or did so in an older program.
+bool is_as_it_ended(const SqliteStatement& row, const Job& job) {
+  const std::string kept = row.text(kEndDigestColumn);
+  return kept.empty() || (has_ended(job.state) && kept == end_digest(job, row.text(kRequestDigestColumn),
+                                                                     row.text(kOutcomeDigestColumn)));
+}
+
+}  // namespace
+
+bool is_whole(const SqliteStatement& row) {
+  return job_state(row.text(2)).has_value() && is_as_it_ended(row, job_of(row));
+}
+
+Job told_job(const SqliteStatement& row) {
+  Job job = job_of(row);
+  if (is_as_it_ended(row, job)) return job;
+  throw SqliteDamage(altered_end(job.id));
+}
+
+void keep_end(SqliteConnection& connection, std::string_view id) {
+  auto row = connection.prepare(fmt::format("SELECT {} FROM jobs WHERE id = ?", kJobColumns));
+  row.bind(id);
+  if (!row.step()) throw SqliteDamage("a job is not found under its id");
+  const std::string digest =
+      end_digest(job_of(row), row.text(kRequestDigestColumn), row.text(kOutcomeDigestColumn));
+  connection.prepare("INSERT OR REPLACE INTO ends (job_id, sha256) VALUES (?, ?)")
+      .bind(id)
+      .bind(digest)
+      .step();
 }
 
 Job job_of(const SqliteStatement& row) {
@@ -47,6 +78,12 @@ std::optional<Job> get_from(SqliteConnection& connection, std::string_view id) {
   auto row = connection.prepare(fmt::format("SELECT {} FROM jobs WHERE id = ?", kJobColumns));
   row.bind(id);
   return row.step() ? std::optional(job_of(row)) : std::nullopt;
+}
+
+std::optional<Job> told_from(SqliteConnection& connection, std::string_view id) {
+  auto row = connection.prepare(fmt::format("SELECT {} FROM jobs WHERE id = ?", kJobColumns));
+  row.bind(id);
+  return row.step() ? std::optional(told_job(row)) : std::nullopt;
 }
 
 ClaimedJob claim_one(SqliteConnection& connection, const std::string& id, std::string_view worker,
@@ -94,6 +131,7 @@ bool end_job(SqliteConnection& connection, const JobEnd& end, std::int64_t now) 
   update.bind(now).bind(outcome.cpu_s).bind(std::int64_t{state == JobState::kSuccessful});
   update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
   const bool held = connection.changes() == 1;
+  if (held) keep_end(connection, lease.id);
   for (std::size_t k = 0; held && k < outcome.series.size(); ++k) {
     const std::string& bytes = outcome.series[k];
     auto insert = connection.prepare("INSERT INTO series (job_id, page, bytes, sha256) VALUES (?, ?, ?, ?)");
@@ -128,6 +166,18 @@ bool split_job(SqliteConnection& connection, const Lease& lease, const std::vect
   return true;
 }
 
+namespace {
+
+std::vector<std::string> dismissed_parts(SqliteConnection& connection, std::string_view whole) {
+  std::vector<std::string> ids;
+  auto row = connection.prepare("SELECT id FROM jobs WHERE whole = ? AND state = 'dismissed'");
+  row.bind(whole);
+  while (row.step()) ids.push_back(row.text(0));
+  return ids;
+}
+
+}  // namespace
+
 void dismiss_job(SqliteConnection& connection, std::string_view id, std::int64_t now) {
   auto update = connection.prepare(
       "UPDATE jobs SET state = 'dismissed', ended_ms = ?, version = version + 1, worker = NULL "
@@ -138,6 +188,8 @@ void dismiss_job(SqliteConnection& connection, std::string_view id, std::int64_t
       "UPDATE jobs SET state = 'dismissed', ended_ms = ?, version = version + 1, worker = NULL "
       "WHERE whole = ? AND state IN ('accepted', 'running')");
   parts.bind(now).bind(id).step();
+  keep_end(connection, id);
+  for (const std::string& part : dismissed_parts(connection, id)) keep_end(connection, part);
   const std::optional<Job> job = get_from(connection, id);
   if (job && !job->whole.empty()) count_ended_part(connection, job->whole, false, 0.0);
 }

@@ -17,22 +17,29 @@ inline constexpr std::string_view kJobColumns =
     "last_death, "
     "urgency, owner, (SELECT document FROM best_so_far WHERE job_id = jobs.id AND attempt = jobs.attempt), "
     "cpu_s, "
-    "whole, part, parts, parts_ended, parts_failed, parts_cpu_s";
+    "whole, part, parts, parts_ended, parts_failed, parts_cpu_s, request_sha256, outcome_sha256, "
+    "(SELECT sha256 FROM ends WHERE job_id = jobs.id)";
 // What a lease, bound as id and attempt, still holds; a job that waits for its parts is nobody's.
 inline constexpr std::string_view kHeld =
     "id = ? AND attempt = ? AND state = 'running' AND lease_until_ms IS NOT NULL";
 
 // Of a row of kJobColumns.
 Job job_of(const SqliteStatement& row);
-// Whether job_of() can read it.
-bool has_known_state(const SqliteStatement& row);
+// Whether told_job() can read it.
+bool is_whole(const SqliteStatement& row);
+// The same as job_of(), for who is told of it: an ended job that is not as it ended is damage.
+Job told_job(const SqliteStatement& row);
 std::optional<Job> get_from(SqliteConnection& connection, std::string_view id);
+std::optional<Job> told_from(SqliteConnection& connection, std::string_view id);
 
 // What JobStore::claim_some() does with a job that may be claimed.
 ClaimedJob claim_one(SqliteConnection& connection, const std::string& id, std::string_view worker,
                      std::int64_t now, std::int64_t lease_until);
 // The parts that are claimed behind the first, `most` jobs in all.
 std::vector<std::string> parts_beside(SqliteConnection& connection, const Job& first, int most);
+
+// Takes down how the job has ended, so that told_job() notices what is altered afterwards.
+void keep_end(SqliteConnection& connection, std::string_view id);
 
 // False: the lease is lost.
 bool end_job(SqliteConnection& connection, const JobEnd& end, std::int64_t now);

@@ -89,6 +89,17 @@ CREATE TRIGGER IF NOT EXISTS best_so_far_goes AFTER DELETE ON jobs BEGIN
 END;
 )";
 
+// How jobs ended, in digests; a program that does not know it does without.
+constexpr const char* kEnds = R"(
+CREATE TABLE IF NOT EXISTS ends (
+  job_id TEXT PRIMARY KEY,
+  sha256 TEXT NOT NULL
+);
+CREATE TRIGGER IF NOT EXISTS ends_go AFTER DELETE ON jobs BEGIN
+  DELETE FROM ends WHERE job_id = OLD.id;
+END;
+)";
+
 const std::vector<std::string> kTableColumns{"sequence",
                                              "id",
                                              "kind",
@@ -273,6 +284,7 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
     }
     check_columns(connection, store);
     connection.execute(kBestSoFar);
+    connection.execute(kEnds);
     end_leases_of_other_boots(connection);
   } catch (const SqliteDamage& damage) {
     const std::string words = damage.what();

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -102,16 +103,19 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
 class SqliteJobStore final : public JobStore {
  public:
   SqliteJobStore(const std::filesystem::path& path, StoreCheck how_far)
-      : durable_(path, CommitKind::kDurable),
+      : path_(path),
+        durable_(path, CommitKind::kDurable),
         second_(quick_to(path)),
         third_(quick_to(path)),
         reserve_(path.empty() ? "" : path.string() + ".reserve") {
     settle_schema(durable_, path, how_far);
+    opened_ = file_at(path_);
     if (how_far == StoreCheck::kWhole) reserve_.keep();
   }
 
   // The first of those that wait commits for all of them: a disk does few commits a second, however large.
   Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
+    if (const auto there = in_place(); !there) return fail(there.error());
     PendingAppend mine{job, now, admission, std::nullopt};
     std::unique_lock lock(append_mutex_);
     pending_.push_back(&mine);
@@ -130,6 +134,14 @@ class SqliteJobStore final : public JobStore {
       appended_.notify_all();
     }
     return *mine.answer;
+  }
+
+  Result<void> in_place() override {
+    if (!opened_ || file_at(path_) == opened_) return {};
+    return fail(ErrorCode::kStorage,
+                fmt::format("the job store {} was moved, removed or replaced while it was open, and what is "
+                            "written now would be lost: put its file back, or start the service anew",
+                            path_.string()));
   }
 
   Result<std::int64_t> lease_clock() override { return boot_ms(); }
@@ -237,7 +249,7 @@ class SqliteJobStore final : public JobStore {
       auto row =
           reader_.prepare(fmt::format("SELECT {} FROM jobs WHERE whole = ? ORDER BY part", kJobColumns));
       row.bind(id);
-      while (row.step()) jobs.push_back(job_of(row));
+      while (row.step()) jobs.push_back(told_job(row));
       return jobs;
     });
   }
@@ -259,15 +271,16 @@ class SqliteJobStore final : public JobStore {
   Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) override {
     return on_a_full_disk([&] {
       SqliteTransaction transaction(durable_);
+      static_cast<void>(told_from(durable_, id));  // what is not as it ended does not end again
       dismiss_job(durable_, id, now);
-      const std::optional<Job> job = get_from(durable_, id);
+      const std::optional<Job> job = told_from(durable_, id);
       transaction.commit();
       return job;
     });
   }
 
   Result<std::optional<Job>> get(std::string_view id) override {
-    return guarded(read_mutex_, [&] { return get_from(reader_, id); });
+    return guarded(read_mutex_, [&] { return told_from(reader_, id); });
   }
 
   Result<std::optional<std::string>> request(std::string_view id) override {
@@ -356,7 +369,7 @@ class SqliteJobStore final : public JobStore {
           fmt::format("SELECT {} FROM jobs WHERE whole IS NULL ORDER BY sequence DESC LIMIT ?", kJobColumns));
       row.bind(static_cast<std::int64_t>(most));
       while (row.step())
-        if (has_known_state(row)) jobs.push_back(job_of(row));  // one that is damaged hides itself alone
+        if (is_whole(row)) jobs.push_back(job_of(row));  // one that is damaged hides itself alone
       return jobs;
     });
   }
@@ -448,6 +461,15 @@ class SqliteJobStore final : public JobStore {
     return path.empty() ? nullptr : std::make_unique<SqliteConnection>(path, CommitKind::kQuick);
   }
 
+  // Which file lies there; nothing where there is none.
+  static std::optional<std::pair<dev_t, ino_t>> file_at(const std::filesystem::path& path) {
+    struct ::stat status {};
+    if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return std::pair(status.st_dev, status.st_ino);
+  }
+
+  const std::filesystem::path path_;
+  std::optional<std::pair<dev_t, ino_t>> opened_;
   SqliteConnection durable_;
   const std::unique_ptr<SqliteConnection> second_, third_;
   SqliteConnection& quick_ = second_ ? *second_ : durable_;

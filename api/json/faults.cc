@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "core/text_encoding.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
@@ -34,6 +36,20 @@ std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
       "/motor_temp_c",
       fmt::format("motor_temp_c counts only where the effect {} is on: switch it on or leave this out",
                   fmt::join(readers, " or "))};
+}
+
+Error bounded(Error error) {
+  constexpr std::size_t kMaxFaults = 100, kMaxPointer = 300, kMaxText = 1000;
+  error.detail = cut_to(std::move(error.detail), kMaxText);
+  if (const std::size_t count = error.faults.size(); count > kMaxFaults) {
+    error.faults.resize(kMaxFaults - 1);
+    error.faults.push_back({"", fmt::format("and {} faults more", count - (kMaxFaults - 1))});
+  }
+  for (Fault& fault : error.faults) {
+    fault.pointer = cut_to(std::move(fault.pointer), kMaxPointer);
+    fault.message = cut_to(std::move(fault.message), kMaxText);
+  }
+  return error;
 }
 
 std::string summary_of(const std::vector<Fault>& faults) {

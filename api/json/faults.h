@@ -21,6 +21,10 @@ std::vector<Fault> moved_under(std::string_view prefix, std::vector<Fault> fault
 std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
                                                 const std::vector<sim::EffectSetting>& requested);
 
+// With texts and a list of faults that an answer may hold and a store may keep, whatever was sent: what is
+// too long ends in "...", and the last of too many faults says how many more there are.
+Error bounded(Error error);
+
 // One sentence for an error's detail.
 std::string summary_of(const std::vector<Fault>& faults);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
@@ -15,7 +16,8 @@ constexpr std::string_view kTypePrefix = "/errors#";
 
 }  // namespace
 
-std::string write_problem(const Error& error) {
+std::string write_problem(const Error& unbounded) {
+  const Error error = bounded(unbounded);
   const ErrorRow& row = error_row(error.code);
   Writer w;
   w.begin_object().text("type", std::string(kTypePrefix) + std::string(row.name)).text("title", row.help);

@@ -7,13 +7,17 @@
 #include <stdexcept>
 
 #include "core/angle.h"
+#include "core/text_encoding.h"
 
 namespace slipway::api::json {
 namespace {
 
+constexpr std::string_view kNoCharacter = "\xEF\xBF\xBD";  // U+FFFD
+
 void append_quoted(std::string& out, std::string_view text) {
   out += '"';
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     switch (c) {
       case '"':
         out += "\\\"";
@@ -30,8 +34,13 @@ void append_quoted(std::string& out, std::string_view text) {
       default:
         if (static_cast<unsigned char>(c) < 0x20U) {
           fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(c));
-        } else {
+        } else if (static_cast<unsigned char>(c) < 0x80U) {
           out += c;
+        } else if (const std::size_t length = length_of_character(text, i); length > 0) {
+          out += text.substr(i, length);
+          i += length - 1;
+        } else {
+          out += kNoCharacter;
         }
     }
   }

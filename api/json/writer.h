@@ -12,7 +12,7 @@ namespace slipway::api::json {
 
 // Writes one JSON document in the order of the calls, so that the same values give the same bytes. A number
 // that is not finite throws std::domain_error with its key, since no answer may hold NaN or a null in its
-// place.
+// place. What is no UTF-8 in a text is written as U+FFFD.
 class Writer {
  public:
   Writer& begin_object();

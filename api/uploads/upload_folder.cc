@@ -61,10 +61,30 @@ Result<std::string> sha256_of_descriptor(int fd) {
   }
 }
 
+// The name of the folder of an owner's upload. Before owners had their own it was the id.
+std::string folder_name(const std::string& id, const std::string& owner) {
+  constexpr std::size_t kOwnerDigits = 16;
+  if (owner.empty()) return id;
+  Sha256 hash;
+  hash.add(owner);
+  return fmt::format("{}.{}", id, hash.digest().substr(0, kOwnerDigits));
+}
+
+// Whether `a` stands for the uploads of the same bytes rather than `b`.
+bool is_nearer(const Upload& a, const Upload& b, const Asker& asker) {
+  const auto distance = [&](const Upload& upload) {
+    if (upload.origin.owner == asker.name) return 0;
+    return upload.origin.owner.empty() ? 1 : 2;
+  };
+  return std::pair(distance(a), a.folder) < std::pair(distance(b), b.folder);
+}
+
 std::optional<Upload> upload_in(const fs::path& folder) {
   Upload upload;
-  upload.id = folder.filename().string();
-  if (!is_id(upload.id)) return std::nullopt;
+  upload.folder = folder.filename().string();
+  upload.id = upload.folder.substr(0, kIdDigits);
+  const bool is_owners = upload.folder.size() > kIdDigits;
+  if (!is_id(upload.id) || (is_owners && upload.folder[kIdDigits] != '.')) return std::nullopt;
   auto origin = read_origin(folder, &upload.name);
   if (!origin || !is_file_name(upload.name)) return std::nullopt;
   upload.origin = *std::move(origin);
@@ -163,49 +183,71 @@ Result<Upload> UploadFolder::keep(int fd, const std::string& name, const UploadO
   if (const auto room = check_room(status.st_size); !room) return fail(room.error());
   auto id = sha256_of_descriptor(fd);
   if (!id) return fail(id.error());
-  if (auto known = find(*id)) return *known;
-  const fs::path place = files() / *id;
+  const Asker owner{.name = origin.owner};
+  const auto known = find(*id, owner);
+  if (known && known->origin.owner == origin.owner) return *known;
+  const fs::path place = files() / folder_name(*id, origin.owner);
   const WorkingFolder working(place);
   if (const auto made = make_folder(working.path()); !made)
     return fail(ErrorCode::kStorage, made.error().detail);
   const std::string open_file = fmt::format("/proc/self/fd/{}", fd);
-  if (::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, (working.path() / name).c_str(), AT_SYMLINK_FOLLOW) !=
-      0)
+  // What another owner has sent has these bytes, where it is what was sent.
+  const auto others = known ? verified(*id, owner) : Result<fs::path>(fail(ErrorCode::kNotFound, ""));
+  const std::string source = others ? others->string() : open_file;
+  if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, (working.path() / name).c_str(), AT_SYMLINK_FOLLOW) != 0)
     return unstored(errno, "what was sent could not be kept");
   const auto written = write_origin(working.path(), origin, name);
   auto placed = written ? put_in_place(working.path(), place) : Result<bool>(fail(written.error()));
   if (!placed) return fail(ErrorCode::kStorage, placed.error().detail);
-  if (auto kept = find(*id)) return *kept;
+  if (auto kept = upload_in(place)) return *kept;
   return fail(ErrorCode::kStorage, "what was sent is not there any more");
 }
 
-std::vector<Upload> UploadFolder::list() const {
+std::vector<Upload> UploadFolder::all() const {
   std::vector<Upload> uploads;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(files(), error))
     if (auto upload = upload_in(entry.path())) uploads.push_back(*std::move(upload));
-  std::sort(uploads.begin(), uploads.end(), [](const Upload& a, const Upload& b) { return a.id < b.id; });
   return uploads;
 }
 
-std::optional<Upload> UploadFolder::find(std::string_view id) const {
-  if (!is_id(id)) return std::nullopt;
-  return upload_in(files() / id);
+std::vector<Upload> UploadFolder::list(const Asker& asker) const {
+  std::vector<Upload> uploads = all();
+  std::sort(uploads.begin(), uploads.end(), [&](const Upload& a, const Upload& b) {
+    return a.id == b.id ? is_nearer(a, b, asker) : a.id < b.id;
+  });
+  const auto same = [](const Upload& a, const Upload& b) { return a.id == b.id; };
+  uploads.erase(std::unique(uploads.begin(), uploads.end(), same), uploads.end());
+  return uploads;
 }
 
-Result<fs::path> UploadFolder::verified(const std::string& id) const {
-  const auto upload = find(id);
+std::optional<Upload> UploadFolder::find(std::string_view id, const Asker& asker) const {
+  if (!is_id(id)) return std::nullopt;
+  if (auto own = upload_in(files() / folder_name(std::string(id), asker.name));
+      own && own->origin.owner == asker.name)
+    return own;
+  std::optional<Upload> nearest;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(files(), error)) {
+    if (!entry.path().filename().string().starts_with(id)) continue;
+    auto upload = upload_in(entry.path());
+    if (upload && (!nearest || is_nearer(*upload, *nearest, asker))) nearest = std::move(upload);
+  }
+  return nearest;
+}
+
+Result<fs::path> UploadFolder::verified(const std::string& id, const Asker& asker) const {
+  const auto upload = find(id, asker);
   if (!upload) return fail(ErrorCode::kNotFound, fmt::format("there is no upload {}", id));
-  const fs::path path = files() / id / upload->name;
+  const fs::path path = files() / upload->folder / upload->name;
   const auto hash = sha256_of_file(path);
   if (!hash || *hash != id)
     return fail(ErrorCode::kDamagedStore, fmt::format("the upload {} is not what was sent any more", id));
   return path;
 }
 
-Result<bool> UploadFolder::remove(const std::string& id) {
-  if (!is_id(id)) return false;
-  return take_away(files() / id);
+Result<bool> UploadFolder::remove(const Upload& upload) {
+  return take_away(files() / upload.folder);
 }
 
 std::int64_t UploadFolder::bytes() const {
@@ -240,8 +282,8 @@ Result<void> UploadFolder::check_room(std::int64_t more) const {
 }
 
 void UploadFolder::remove_old(std::int64_t now_ms) {
-  for (const Upload& upload : list())
-    if (now_ms - upload.origin.at_ms > limits_.max_age_ms) static_cast<void>(remove(upload.id));
+  for (const Upload& upload : all())
+    if (now_ms - upload.origin.at_ms > limits_.max_age_ms) static_cast<void>(remove(upload));
   // What a service that died has left of bodies under way.
   constexpr auto kDay = std::chrono::hours(24);
   std::error_code error;

@@ -29,8 +29,9 @@ struct UploadOrigin {
 
 // A file that a client sent.
 struct Upload {
-  std::string id;    // SHA-256 of its bytes, 64 hexadecimal digits
-  std::string name;  // as the client calls it: letters, digits, ".", "_", "-"
+  std::string id;      // SHA-256 of its bytes, 64 hexadecimal digits
+  std::string folder;  // its name in files()
+  std::string name;    // as the client calls it: letters, digits, ".", "_", "-"
   std::int64_t bytes = 0;
   UploadOrigin origin;
 };
@@ -40,8 +41,8 @@ struct UploadLimits {
   std::int64_t max_age_ms = std::int64_t{7} * 24 * 3600 * 1000;  // of files: what is made of them stays
 };
 
-// A folder of uploads: files/ID, drive-campaigns/ID, terrains/NAME. Everything in it is under its name only
-// when it is whole. Several processes may use it at once. Thread-safe.
+// A folder of uploads: files/ID.OWNER, drive-campaigns/ID, terrains/NAME. Everything in it is under its name
+// only when it is whole. Several processes may use it at once. Thread-safe.
 class UploadFolder {
  public:
   // Makes the folder where there is none. Errors: unwritable_file.
@@ -54,16 +55,18 @@ class UploadFolder {
   std::filesystem::path terrains() const { return root_ / "terrains"; }
 
   // Keeps the bytes of an open file in files(), without a name or with one that begins with a dot. The same
-  // bytes a second time are the upload of the first. Files that are too old go. Errors: invalid_request at
-  // /name; storage, storage_full.
+  // bytes a second time from the same owner are the upload of the first; each owner has an upload of them,
+  // and the bytes are on the disk once. Files that are too old go. Errors: invalid_request at /name; storage,
+  // storage_full.
   Result<Upload> keep(int fd, const std::string& name, const UploadOrigin& origin);
-  // Sorted by id. What can't be read is left out.
-  std::vector<Upload> list() const;
-  std::optional<Upload> find(std::string_view id) const;
+  // Sorted by id. What can't be read is left out. Of several uploads of the same bytes the asker's own stands
+  // for all, or else the one that is anybody's, or else the first.
+  std::vector<Upload> list(const Asker& asker = {}) const;
+  std::optional<Upload> find(std::string_view id, const Asker& asker = {}) const;
   // The file's place, where its bytes still are what was sent. Errors: not_found, damaged_store.
-  Result<std::filesystem::path> verified(const std::string& id) const;
-  // Whether it was there. Errors: storage.
-  Result<bool> remove(const std::string& id);
+  Result<std::filesystem::path> verified(const std::string& id, const Asker& asker = {}) const;
+  // The upload alone: others of the same bytes stay. Whether it was there. Errors: storage.
+  Result<bool> remove(const Upload& upload);
 
   // Bytes of all that is in the folder, of a file with several names once. Bodies that are still coming are
   // not in it.
@@ -75,6 +78,7 @@ class UploadFolder {
 
  private:
   UploadFolder(std::filesystem::path root, UploadLimits limits) : root_(std::move(root)), limits_(limits) {}
+  std::vector<Upload> all() const;
   void remove_old(std::int64_t now_ms);
 
   std::filesystem::path root_;

@@ -176,7 +176,7 @@ Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& 
       return fail(ErrorCode::kNotFound, fmt::format("there is no uploaded campaign {}", order.follows));
     source = earlier->parent_path();
   } else {
-    const auto file = uploads.verified(order.upload);
+    const auto file = uploads.verified(order.upload, order.asker);
     if (!file) return fail(file.error());
     source = *file;
   }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -11,10 +13,23 @@
 namespace slipway::api {
 namespace {
 
+// "with --unit ft" -> "with \"unit\" ft".
+std::string keys_for_flags(std::string text) {
+  for (const std::string_view key : {"crs", "unit", "property", "legend", "soil", "fix"}) {
+    const std::string flag = fmt::format("--{}", key), name = fmt::format("\"{}\"", key);
+    for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + name.size()))
+      text.replace(at, flag.size(), name);
+  }
+  return text;
+}
+
 // "--legend" -> "/legend": who sends a request knows its keys.
 Error in_words_of_request(Error error) {
-  for (Fault& fault : error.faults)
+  error.detail = keys_for_flags(std::move(error.detail));
+  for (Fault& fault : error.faults) {
     if (fault.pointer.starts_with("--")) fault.pointer = "/" + fault.pointer.substr(2);
+    fault.message = keys_for_flags(std::move(fault.message));
+  }
   return error;
 }
 
@@ -37,17 +52,17 @@ Result<TerrainImportReport> take_terrain(UploadFolder& uploads, const TerrainOrd
                                          const Catalogue& catalogue, Progress& progress) {
   TerrainImport import = order.import;
   import.data = uploads.root();
-  auto map = uploads.verified(order.elevation);
+  auto map = uploads.verified(order.elevation, order.asker);
   if (!map) return fail(map.error());
   import.elevation = *std::move(map);
   for (const auto& [id, file] :
        {std::pair{&order.soil, &import.soil}, std::pair{&order.legend, &import.legend}}) {
     if (id->empty()) continue;
-    auto path = uploads.verified(*id);
+    auto path = uploads.verified(*id, order.asker);
     if (!path) return fail(path.error());
     *file = *std::move(path);
   }
-  const auto elevation = uploads.find(order.elevation);
+  const auto elevation = uploads.find(order.elevation, order.asker);
   if (!elevation) return fail(ErrorCode::kNotFound, "the elevation map was deleted meanwhile");
   // What is written is about as large as what was sent, with its overviews half as large again.
   if (const auto room = uploads.check_room(elevation->bytes + elevation->bytes / 2); !room)

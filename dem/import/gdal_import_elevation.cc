@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/fault_words.h"
 #include "dem/crs/crs_text.h"
 #include "dem/crs/gdal_named_crs.h"
 #include "dem/gdal_crs.h"
@@ -134,11 +135,12 @@ Result<Opened> open_map(const ElevationImport& order, const GdalSession& session
   if (!dataset) return fail(dataset.error());
   map.dataset = *std::move(dataset);
   std::unique_ptr<OGRSpatialReference> stated;
-  if (!order.crs.empty() && !(stated = named_crs(order.crs)))
-    return fail(ErrorCode::kInvalidRequest,
-                "--crs is not a system that PROJ knows: " +
-                    fault_of_crs_text(order.crs).value_or(session.complaints()),
-                {{"--crs", order.crs}});
+  if (!order.crs.empty() && !(stated = named_crs(order.crs))) {
+    const std::string why = "--crs is not a system that PROJ knows: " +
+                            fault_of_crs_text(order.crs).value_or(session.complaints());
+    return fail(ErrorCode::kInvalidRequest, why,
+                {{"--crs", fmt::format("{}: {}", in_quotes(order.crs), why)}});
+  }
   if (stated) map.arrangement.changes.push_back("the system was stated by --crs: " + order.crs);
   map.crs = stated ? horizontal_part(stated.get()) : system_of(*map.dataset);
   const int chosen = choose_band(*map.dataset, map.file, order.band).value_or(BandChoice{}).number;

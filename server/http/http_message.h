@@ -34,6 +34,7 @@ struct HttpRequest {
   std::string id;
   std::string principal;  // who asks, as HttpOptions::admit knows it
   bool is_admin = false;  // may change what is others', by the same
+  std::string token;      // the SHA-256 of the token by which that is known; empty: none was needed
   std::string route;      // the pattern of the route that answers; empty: none does
 
   // The header's first value. Names are compared without regard to case.
@@ -65,7 +66,8 @@ struct HttpResponse {
   // How many bytes the pieces have together, which is then said as Content-Length; nothing: that is not known
   // before the last, and they go in chunks.
   std::optional<std::uint64_t> pieces_bytes = {};
-  std::string audit = {};  // a JSON object for the audit log, which is not sent
+  std::string audit = {};        // a JSON object for the audit log, which is not sent
+  bool changed_nothing = false;  // though the status is one of success: for the audit log too
 
   std::optional<std::string> header(std::string_view name) const;
 };

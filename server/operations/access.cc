@@ -112,7 +112,10 @@ Result<Access::Holders> Access::read_tokens(const std::string& path) {
     if (!names.insert(holder.name).second)
       entry.fault("name", fmt::format("\"{}\" is the name of two tokens", holder.name));
     holder.role = static_cast<Role>(role);
-    holders.emplace(std::move(hash), std::move(holder));
+    const std::string name = holder.name;
+    if (const auto [known, is_new] = holders.emplace(std::move(hash), std::move(holder)); !is_new)
+      entry.fault("sha256", fmt::format("\"{}\" and \"{}\" have the same token: give each person one",
+                                        known->second.name, name));
   }
   reader.refuse_unknown();
   if (!faults.empty())
@@ -132,6 +135,11 @@ Result<std::optional<Access::Holder>> Access::holder_of(
   if (holder == holders_.end())
     return fail(ErrorCode::kUnauthorized, token ? "the token is not known here" : "a token is needed here");
   return holder->second;
+}
+
+bool Access::knows(const std::string& token) const {
+  const std::scoped_lock lock(mutex_);
+  return holders_.contains(token);
 }
 
 std::string Access::name_of(std::string_view method, std::string_view path,
@@ -157,6 +165,7 @@ Result<void> Access::admit(HttpRequest& request) {
   if (*holder) {
     request.principal = (*holder)->name;
     request.is_admin = (*holder)->role == Role::kAdmin;
+    request.token = hash_of(*token_in(request.header("Authorization")));
     if (!may(**holder, request.method))
       return fail(ErrorCode::kForbidden,
                   fmt::format("{} is a viewer, who changes nothing", request.principal));

@@ -50,6 +50,9 @@ class Access {
   // one that is not known), forbidden (the role does not allow it), too_many_requests.
   Result<void> admit(HttpRequest& request);
 
+  // Whether a token of this SHA-256 (HttpRequest::token) is still known.
+  bool knows(const std::string& token) const;
+
   // The name of the token that a request of this method, path and Authorization header comes with; empty
   // without one, or where nobody needs one.
   std::string name_of(std::string_view method, std::string_view path,

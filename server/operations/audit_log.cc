@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/jobs/job.h"
@@ -50,6 +52,22 @@ bool has_room_behind(int fd) {
          (errno != ENOSPC && errno != EDQUOT);
 }
 
+bool is_same_file(const FileDescriptor& a, const FileDescriptor& b) {
+  struct ::stat first {
+  }, second{};
+  return a.is_open() && ::fstat(a.fd(), &first) == 0 && ::fstat(b.fd(), &second) == 0 &&
+         first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+// Whether a process that died has left the end of a line away.
+bool ends_in_a_line(const std::string& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct ::stat status {};
+  char last = '\n';
+  return file.is_open() && ::fstat(file.fd(), &status) == 0 && S_ISREG(status.st_mode) &&
+         status.st_size > 0 && ::pread(file.fd(), &last, 1, status.st_size - 1) == 1 && last != '\n';
+}
+
 }  // namespace
 
 Result<FileDescriptor> AuditLog::opened() const {
@@ -67,17 +85,31 @@ Result<std::unique_ptr<AuditLog>> AuditLog::open(const std::string& path) {
   return log;
 }
 
+AuditLog::~AuditLog() {
+  const std::scoped_lock lock(mutex_);
+  add_repeated(std::numeric_limits<std::int64_t>::max());
+  static_cast<void>(write_pending());
+}
+
 Result<void> AuditLog::open_again() {
   auto file = opened();
   if (!file) return fail(file.error());
   const std::scoped_lock lock(mutex_);
+  if (!is_same_file(file_, *file)) {
+    sent_ = 0;  // a line that is half in the old file is in the new one whole
+    if (ends_in_a_line(path_)) pending_.insert(0, "\n");
+  }
   file_ = *std::move(file);
   return {};
 }
 
+void AuditLog::add(const std::string& line) {
+  pending_ += with_hidden_escaped(line) + "\n";
+}
+
 Result<void> AuditLog::write_pending() {
   while (!pending_.empty()) {
-    const ssize_t written = ::write(file_.fd(), pending_.data(), pending_.size());
+    const ssize_t written = ::write(file_.fd(), pending_.data() + sent_, pending_.size() - sent_);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       const bool full = errno == ENOSPC || errno == EDQUOT;
@@ -86,7 +118,11 @@ Result<void> AuditLog::write_pending() {
           fmt::format("the audit log {} can't be written ({}), and nothing is changed without it: {}", path_,
                       std::strerror(errno), full ? "make room on its disk" : "see to its file and disk"));
     }
-    pending_.erase(0, static_cast<std::size_t>(written));
+    sent_ += static_cast<std::size_t>(written);
+    const std::size_t whole = sent_ == 0 ? std::string::npos : pending_.rfind('\n', sent_ - 1);
+    if (whole == std::string::npos) continue;
+    pending_.erase(0, whole + 1);
+    sent_ -= whole + 1;
   }
   return {};
 }
@@ -103,9 +139,51 @@ Result<void> AuditLog::can_record(std::string_view method) {
   return {};
 }
 
+// Those whose line is older.
+void AuditLog::add_repeated(std::int64_t before_ms) {
+  for (const auto& [whose, refused] : repeated_) {
+    if (refused.since_ms >= before_ms || refused.more == 0) continue;
+    api::json::Writer w;
+    w.begin_object().text("time", utc_text(now_ms())).text("who", whose.first).whole("status", whose.second);
+    w.whole("more", refused.more).text("since", utc_text(refused.since_ms)).end_object();
+    add(w.take());
+  }
+  std::erase_if(repeated_, [&](const auto& entry) { return entry.second.since_ms < before_ms; });
+}
+
+// Whoever asks without being let in does not fill the disk: one line a minute, and from then on a count.
+bool AuditLog::is_repeated(const AnsweredRequest& answered, std::int64_t now) {
+  constexpr int kUnauthorized = 401, kTooManyRequests = 429;
+  constexpr std::size_t kMostAddresses = 1000;
+  const int status = answered.response.status;
+  if (status != kUnauthorized && status != kTooManyRequests) return false;
+  std::pair whose{answered.request.principal, status};
+  if (repeated_.size() >= kMostAddresses && !repeated_.contains(whose)) whose.first = "others";
+  const auto [place, is_first] = repeated_.try_emplace(whose, Repeated{now, 0});
+  if (!is_first) ++place->second.more;
+  return !is_first;
+}
+
 void AuditLog::record(const AnsweredRequest& answered) {
+  if (only_reads(answered.request.method)) return;
+  constexpr int kLeastRefusal = 400;
+  constexpr std::int64_t kMinute_ms = 60'000;
+  const std::int64_t now = now_ms();
+  const bool changed = answered.response.status < kLeastRefusal && !answered.response.changed_nothing;
+  const std::scoped_lock lock(mutex_);
+  if (is_repeated(answered, now)) return;
+  if (changed || has_room_behind(file_.fd())) {
+    add_repeated(now - kMinute_ms);
+    record_line(answered);
+  } else {
+    ++unsaid_;
+  }
+  if (const auto written = write_pending(); !written)
+    log_event(LogLevel::kError, "audit_log_not_written", {{"reason", written.error().detail}});
+}
+
+void AuditLog::record_line(const AnsweredRequest& answered) {
   const HttpRequest& request = answered.request;
-  if (only_reads(request.method)) return;
   api::json::Writer w;
   w.begin_object()
       .text("time", utc_text(now_ms()))
@@ -116,12 +194,10 @@ void AuditLog::record(const AnsweredRequest& answered) {
   w.whole("status", answered.response.status);
   w.text("location", answered.response.header("Location").value_or(""));
   w.text("id", request.id);
+  if (unsaid_ > 0) w.whole("unsaid_before", std::exchange(unsaid_, 0));
   if (!answered.response.audit.empty()) w.key("what").raw(answered.response.audit);
   w.end_object();
-  const std::scoped_lock lock(mutex_);
-  pending_ += w.take() + "\n";
-  if (const auto written = write_pending(); !written)
-    log_event(LogLevel::kError, "audit_log_not_written", {{"reason", written.error().detail}});
+  add(w.take());
 }
 
 }  // namespace slipway::server

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <iterator>
 #include <memory>
+#include <optional>
 
 #include "api/jobs/job.h"
 #include "api/json/writer.h"
+#include "core/text_encoding.h"
 #include "core/utc.h"
 
 namespace slipway::server {
@@ -49,11 +52,26 @@ std::string as_json(LogLevel level, std::string_view event, std::initializer_lis
   return w.take();
 }
 
+// The code of a character that ends a line or turns or hides what stands beside it; nothing of any other.
+std::optional<unsigned> hidden_code(std::string_view character) {
+  const auto bits = [&](std::size_t i, unsigned mask) {
+    return static_cast<unsigned>(static_cast<unsigned char>(character[i])) & mask;
+  };
+  unsigned code = 0;
+  if (character.size() == 1) code = bits(0, 0xFFU);
+  if (character.size() == 2) code = bits(0, 0x1FU) << 6U | bits(1, 0x3FU);
+  if (character.size() == 3) code = bits(0, 0x0FU) << 12U | bits(1, 0x3FU) << 6U | bits(2, 0x3FU);
+  const bool hides = (code >= 0x7F && code <= 0x9F) || (code >= 0x200B && code <= 0x200F) ||
+                     (code >= 0x2028 && code <= 0x202E) || (code >= 0x2060 && code <= 0x206F) ||
+                     code == 0xFEFF;
+  return hides ? std::optional(code) : std::nullopt;
+}
+
 // A JSON string has no character that a terminal acts on.
 std::string quoted(const std::string& text) {
   api::json::Writer w;
   w.text(text);
-  return w.take();
+  return with_hidden_escaped(w.take());
 }
 
 std::string as_text(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
@@ -70,6 +88,20 @@ std::string as_text(LogLevel level, std::string_view event, std::initializer_lis
 
 }  // namespace
 
+std::string with_hidden_escaped(std::string_view json) {
+  std::string out;
+  for (std::size_t i = 0; i < json.size();) {
+    const std::size_t length = std::max<std::size_t>(1, length_of_character(json, i));
+    const std::string_view character = json.substr(i, length);
+    if (const auto code = hidden_code(character))
+      fmt::format_to(std::back_inserter(out), "\\u{:04x}", *code);
+    else
+      out += character;
+    i += length;
+  }
+  return out;
+}
+
 void set_log(LogForm wanted, LogLevel from) {
   form = wanted;
   logger().set_level(kLevels[static_cast<std::size_t>(from)]);
@@ -78,7 +110,8 @@ void set_log(LogForm wanted, LogLevel from) {
 void log_event(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   const auto at = kLevels[static_cast<std::size_t>(level)];
   if (!logger().should_log(at)) return;
-  logger().log(at, form == LogForm::kJson ? as_json(level, event, fields) : as_text(level, event, fields));
+  logger().log(at, form == LogForm::kJson ? with_hidden_escaped(as_json(level, event, fields))
+                                          : as_text(level, event, fields));
 }
 
 std::optional<std::string> trace_id_of(std::string_view traceparent) {

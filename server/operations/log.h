@@ -26,6 +26,10 @@ void set_log(LogForm form, LogLevel from);
 // escaped.
 void log_event(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
+// JSON in which characters that end a line for an editor, or turn or hide what stands beside them, are
+// escaped.
+std::string with_hidden_escaped(std::string_view json);
+
 // The trace id of a traceparent header [W3C Trace Context]; nothing where it is malformed.
 std::optional<std::string> trace_id_of(std::string_view traceparent);
 

@@ -118,7 +118,9 @@ class JobRoutes {
       return problem(ErrorCode::kConflict, fmt::format("the job is {} already", api::describe((*job)->state)),
                      request);
     }
-    return document(api::json::write_job(**job, std::nullopt, std::nullopt));
+    HttpResponse response = document(api::json::write_job(**job, std::nullopt, std::nullopt));
+    response.changed_nothing = api::has_ended(known->state);
+    return response;
   }
 
  private:

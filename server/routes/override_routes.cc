@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -31,7 +32,7 @@ constexpr std::size_t kMinReason = 10, kMaxReason = 2000;
 
 // What somebody has asked for, until it is confirmed.
 struct Asked {
-  std::string check, reason, by;
+  std::string check, reason, by, token;
   std::int64_t at_ms = 0;
 };
 
@@ -67,7 +68,8 @@ std::string override_id(const std::string& check) {
 
 class Overrides {
  public:
-  Overrides(api::JobStore& store, int persons) : store_(store), persons_(persons) {}
+  Overrides(api::JobStore& store, const RouteOptions& options)
+      : store_(store), persons_(options.override_persons), knows_token_(options.knows_token) {}
 
   HttpResponse get(const HttpRequest& request) {
     const auto kept = store_.request(override_id(std::string(request.parameter("id"))));
@@ -119,8 +121,12 @@ class Overrides {
     const auto answer = api::json::parse(api::parts_of(**outcome).document,
                                          {.bytes = std::numeric_limits<std::size_t>::max(),
                                           .values = std::numeric_limits<std::size_t>::max()});
-    if (!answer) return fail(answer.error());
-    return answer->find("verdict")->text;
+    const api::json::JsonValue* const verdict = answer ? answer->find("verdict") : nullptr;
+    if (verdict == nullptr || verdict->kind != api::json::JsonValue::Kind::kString)
+      return fail(
+          ErrorCode::kDamagedStore,
+          fmt::format("what is stored of job {} is no check's answer: ask for the check again", check));
+    return verdict->text;
   }
 
   HttpResponse ask(const std::string& check, const std::string& verdict, const std::string& reason,
@@ -145,7 +151,7 @@ class Overrides {
       if (asked_.size() >= kMaxUnconfirmed)
         return problem(ErrorCode::kTooManyRequests,
                        "too many overrides wait for their confirmation: ask again in ten minutes", request);
-      asked_[confirmation] = {check, reason, request.principal, now};
+      asked_[confirmation] = {check, reason, request.principal, request.token, now};
     }
     api::json::Writer w;
     w.begin_object().text("format", "override/1").text("state", "to_be_confirmed").text("check", check);
@@ -168,6 +174,10 @@ class Overrides {
         asked = found->second;
       }
     }
+    // What somebody asked for whose token was taken away has lapsed.
+    if (asked && !asked->token.empty() && knows_token_ && !knows_token_(asked->token)) asked.reset();
+    if (const auto known = store_.get(override_id(check)); !asked && known && *known)
+      return problem(ErrorCode::kConflict, "the check has been overridden already", request);
     if (!asked || asked->reason != wanted.reason)
       return problem_response(
           {ErrorCode::kInvalidRequest,
@@ -177,7 +187,10 @@ class Overrides {
                    : "is not one that was given for this check within the last ten minutes: ask again "
                      "without it"}}},
           &request);
-    if (persons_ > 1 && asked->by == request.principal)
+    // A token is one person's under whatever name.
+    const bool is_asker =
+        asked->by == request.principal || (!asked->token.empty() && asked->token == request.token);
+    if (persons_ > 1 && is_asker)
       return problem(
           ErrorCode::kForbidden,
           fmt::format("{} asked for this override, so another person must confirm it; persons are "
@@ -228,14 +241,15 @@ class Overrides {
 
   api::JobStore& store_;
   const int persons_;
+  const std::function<bool(const std::string& token)> knows_token_;
   std::mutex mutex_;
   std::map<std::string, Asked, std::less<>> asked_;
 };
 
 }  // namespace
 
-std::vector<Route> override_routes(api::JobStore& store, int persons) {
-  const auto overrides = std::make_shared<Overrides>(store, persons);
+std::vector<Route> override_routes(api::JobStore& store, const RouteOptions& options) {
+  const auto overrides = std::make_shared<Overrides>(store, options);
   return {
       {"POST", "/v1/checks/{id}/override", [overrides](const HttpRequest& r) { return overrides->post(r); }},
       {"GET", "/v1/checks/{id}/override", [overrides](const HttpRequest& r) { return overrides->get(r); }}};

@@ -22,7 +22,10 @@ bool read(const std::string& text, Number& out) {
 }  // namespace
 
 Query::Query(const HttpRequest& request, std::vector<std::string> known) : request_(request) {
+  std::vector<std::string> seen;
   for (const auto& [name, value] : request.query) {
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;  // said of the first
+    seen.push_back(name);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       faults_.push_back({"/" + name, unknown_name("query parameter", name, known)});
     } else if (std::count_if(request.query.begin(), request.query.end(),

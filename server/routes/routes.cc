@@ -71,8 +71,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
   routes.back().threads = Threads::kPrompt;
   for (std::vector<Route> more :
        {job_routes(service, runner, options, kinds), comparison_routes(runner.store()),
-        override_routes(runner.store(), options.override_persons), upload_routes(service),
-        terrain_routes(service)})
+        override_routes(runner.store(), options), upload_routes(service), terrain_routes(service)})
     std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }

@@ -28,6 +28,8 @@ struct RouteOptions {
                      const std::optional<std::string>& authorization)>
       admits = {};
   int override_persons = 2;  // 2: who confirms an override is not who asked for it
+  // Whether a token (HttpRequest::token) is still known; where there is no such function, it is.
+  std::function<bool(const std::string& token)> knows_token = {};
 };
 
 // What is asked and answered under which address. The service, the runner and the kinds of jobs must outlive

@@ -226,6 +226,7 @@ class TerrainRoutes {
     const auto found = catalogue->terrains.find(request.parameter("name"));
     if (found == catalogue->terrains.end())
       return fail(ErrorCode::kNotFound, api::unknown_terrain(*catalogue, request.parameter("name")));
+    if (const auto same = found->second->unaltered(); !same) return fail(same.error());
     return found->second;
   }
 

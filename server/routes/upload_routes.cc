@@ -43,9 +43,11 @@ class UploadRoutes {
   }
 
   HttpResponse list(const HttpRequest& request) const {
-    return current(api::json::write_uploads(service_.uploads() == nullptr ? std::vector<api::Upload>{}
-                                                                          : service_.uploads()->list()),
-                   request);
+    if (const auto error = Query(request, {}).error()) return problem_response(*error, &request);
+    return current(
+        api::json::write_uploads(service_.uploads() == nullptr ? std::vector<api::Upload>{}
+                                                               : service_.uploads()->list(asker(request))),
+        request);
   }
 
   HttpResponse get(const HttpRequest& request) const {
@@ -58,10 +60,11 @@ class UploadRoutes {
     const auto upload = find(request);
     if (!upload) return problem(ErrorCode::kNotFound, "there is no upload of this id", request);
     if (const auto refused = not_allowed(upload->origin, request)) return *refused;
-    return removed(service_.uploads()->remove(upload->id), "upload", request);
+    return removed(service_.uploads()->remove(*upload), "upload", request);
   }
 
   HttpResponse campaigns(const HttpRequest& request) const {
+    if (const auto error = Query(request, {}).error()) return problem_response(*error, &request);
     return current(api::json::write_drive_campaigns(service_.campaigns(), sent_campaigns()), request);
   }
 
@@ -76,6 +79,7 @@ class UploadRoutes {
   }
 
   HttpResponse terrains(const HttpRequest& request) const {
+    if (const auto error = Query(request, {}).error()) return problem_response(*error, &request);
     return current(api::json::write_terrains(*service_.catalogue()), request);
   }
 
@@ -97,8 +101,10 @@ class UploadRoutes {
                    fmt::format("the {} ships with the service: it can't be removed", what), request);
   }
 
+  static api::Asker asker(const HttpRequest& request) { return {request.principal, request.is_admin}; }
   std::optional<api::Upload> find(const HttpRequest& request) const {
-    return service_.uploads() == nullptr ? std::nullopt : service_.uploads()->find(request.parameter("id"));
+    return service_.uploads() == nullptr ? std::nullopt
+                                         : service_.uploads()->find(request.parameter("id"), asker(request));
   }
   std::vector<api::UploadedCampaign> sent_campaigns() const {
     if (service_.uploads() == nullptr) return {};
@@ -108,7 +114,7 @@ class UploadRoutes {
   // What somebody else sent.
   static std::optional<HttpResponse> not_allowed(const std::optional<api::UploadOrigin>& origin,
                                                  const HttpRequest& request) {
-    if (api::may_change(origin, {request.principal, request.is_admin})) return std::nullopt;
+    if (api::may_change(origin, asker(request))) return std::nullopt;
     return problem(ErrorCode::kForbidden, "it was sent by somebody else", request);
   }
 

@@ -11,6 +11,7 @@
 #include "api/files/soil_file.h"
 #include "api/files/stops.h"
 #include "api/files/terrain_file.h"
+#include "api/files/whole_file.h"
 #include "api/json/writer.h"
 #include "core/angle.h"
 #include "core/random.h"
@@ -307,6 +308,37 @@ TEST(Catalogue, ATerrainsVersionIsOfWhatItsFilesHold) {
   EXPECT_TRUE(versions.contains(version_with(8'000'000, 0)));
   EXPECT_TRUE(versions.insert(version_with(8'999'999, 1)).second);
   EXPECT_TRUE(versions.insert(version_with(5'000'000, 100'000)).second);
+}
+
+TEST(Catalogue, AnImportedMapThatIsAnotherNowIsNotRead) {
+  const ScratchFolder folder;
+  copy_small_world(folder.path());
+  const auto yard = folder.path() / "terrains" / "yard", map = yard / "elevation.tif";
+  const std::string bytes = testing::file_bytes(map);
+  testing::write_file(
+      yard / kDigestsFile,
+      digests_document({TerrainFile{.name = "elevation.tif", .sha256 = sha256_of_file(map).value()}}));
+  const auto site = TerrainSite::open(yard).value();
+  const dem::Extent all = site->info().geometry.extent();
+  EXPECT_TRUE(site->read(all));
+  testing::write_file(map, bytes + " ");
+  for (const auto& opened : {site, TerrainSite::open(yard).value()}) {
+    const auto read = opened->read(all);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::kDamagedStore);
+    EXPECT_EQ(read.error().detail,
+              "elevation.tif of the terrain yard is not what was imported: import the terrain again");
+    EXPECT_FALSE(opened->read_elevation(all));
+    EXPECT_FALSE(opened->read_samples(all, 1));
+    EXPECT_FALSE(opened->read_soils(all, opened->description().legends.front()));
+  }
+  testing::write_file(map, bytes);
+  EXPECT_TRUE(site->read(all)) << "the same bytes, whoever wrote them";
+  std::filesystem::remove(yard / kDigestsFile);
+  testing::write_file(map, bytes + " ");
+  EXPECT_TRUE(TerrainSite::open(yard).value()->read(all)) << "a terrain that was made by hand";
+  testing::write_file(yard / kDigestsFile, "{}");
+  EXPECT_FALSE(TerrainSite::open(yard));
 }
 
 }  // namespace

@@ -76,6 +76,57 @@ TEST(JobStoreDamage, AnAlteredAnswerIsAnErrorAndAnAlteredRequestIsNotRun) {
   EXPECT_FALSE(store->claim("a", {}, 5, 6).value()->damaged);
 }
 
+TEST(JobStoreDamage, AnEndedJobIsToldAsItEndedOrNotAtAll) {
+  for (const char* const altered :
+       {"kind = 'check'", "owner = 'eve'", "state = 'dismissed'", "state = 'accepted', ended_ms = NULL",
+        "ended_ms = ended_ms + 1", "started_ms = 1", "created_ms = 0", "attempt = 7"}) {
+    const ScratchFolder folder;
+    const fs::path path = folder.path() / "jobs.sqlite";
+    const std::vector<std::string> ids = fill(path);
+    const auto store = open_sqlite_job_store(path).value();
+    ASSERT_TRUE(store->dismiss(ids[8], 5));
+    for (const std::string& id : {ids[0], ids[8]}) {
+      ASSERT_TRUE(store->get(id)) << altered;
+      SqliteConnection(path, CommitKind::kQuick)
+          .prepare("UPDATE jobs SET " + std::string(altered) + " WHERE id = ?")
+          .bind(id)
+          .step();
+      if (id == ids[8] && std::string_view(altered).starts_with("state = 'dismissed'")) continue;
+      const auto job = store->get(id);
+      ASSERT_FALSE(job) << altered;
+      EXPECT_EQ(job.error().code, ErrorCode::kDamagedStore);
+      EXPECT_EQ(store->dismiss(id, 6).error().code, ErrorCode::kDamagedStore) << altered;
+    }
+    EXPECT_TRUE(store->get(ids[1])) << "the others are as they were";
+  }
+}
+
+TEST(JobStoreDamage, JobsThatEndedInAnOlderProgramAreReadAsTheyAre) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  SqliteConnection(path, CommitKind::kQuick).execute("DROP TRIGGER ends_go; DROP TABLE ends;");
+  const auto store = open_sqlite_job_store(path).value();
+  EXPECT_EQ(store->get(ids[0]).value()->state, JobState::kSuccessful);
+  EXPECT_EQ(store->list(20).value().size(), ids.size());
+}
+
+TEST(JobStoreDamage, AFileThatIsNoLongerThereTakesNoWork) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const auto store = open_sqlite_job_store(path).value();
+  ASSERT_TRUE(store->in_place());
+  fs::rename(path, path.string() + ".away");
+  const auto refused = store->append({new_job_id(), "plan", "{}"}, 1, {100});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kStorage);
+  EXPECT_EQ(store->in_place().error().code, ErrorCode::kStorage);
+  fs::copy_file(path.string() + ".away", path);
+  EXPECT_FALSE(store->in_place()) << "a copy is another file";
+  fs::rename(path.string() + ".away", path);
+  EXPECT_TRUE(store->append({new_job_id(), "plan", "{}"}, 1, {100}));
+}
+
 TEST(JobStoreDamage, AnAlteredRequestAndAnAlteredPageAreErrors) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "jobs.sqlite";

@@ -58,6 +58,31 @@ TEST(Parse, RefusesTooManyBytesAndTooManyValues) {
   EXPECT_TRUE(parse("[1, 2, 3]", {.values = 4}));
 }
 
+TEST(Writer, WhatIsNoUtf8BecomesTheReplacementCharacter) {
+  const std::string replaced = "\xEF\xBF\xBD";
+  const auto written = [](std::string_view text) { return Writer().text(text).take(); };
+  EXPECT_EQ(written("a\xffz"), "\"a" + replaced + "z\"");
+  EXPECT_EQ(written("\xc3\x28"), "\"" + replaced + "(\"") << "half a character";
+  EXPECT_EQ(written("\xed\xa0\x80"), "\"" + replaced + replaced + replaced + "\"") << "half a UTF-16 pair";
+  EXPECT_EQ(written("\xc0\xaf"), "\"" + replaced + replaced + "\"") << "longer than needed";
+  EXPECT_EQ(written("m\xc3\xa4rz \xf0\x9f\x9a\x80"), "\"m\xc3\xa4rz \xf0\x9f\x9a\x80\"");
+  EXPECT_TRUE(parse(Writer().begin_object().text("a\xff", "\xfe").end_object().take()));
+}
+
+TEST(Problem, HoldsNoMoreOfWhatWasSentThanAnAnswerMay) {
+  const std::string megabyte(1'000'000, 'a');
+  Error error{ErrorCode::kInvalidRequest, megabyte, {}};
+  for (int k = 0; k < 5000; ++k)
+    error.faults.push_back({"/" + megabyte.substr(0, 2000), megabyte.substr(0, 5000)});
+  const std::string written = write_problem(error);
+  EXPECT_LT(written.size(), 200'000U);
+  const Error read = read_problem(written);
+  ASSERT_EQ(read.faults.size(), 100U);
+  EXPECT_EQ(read.faults.back().message, "and 4901 faults more");
+  EXPECT_TRUE(read.faults.front().message.ends_with("aaa..."));
+  EXPECT_EQ(write_problem(read), written) << "what is stored is told as it was";
+}
+
 TEST(StrictReader, NamesEveryFaultAtOnce) {
   const auto document =
       parse(R"({"max_slope_deg": 212, "routes": 2.5, "name": 7, "list": [1, "x", 5], "surprise": 1,

@@ -130,6 +130,33 @@ TEST_F(PostgresJobStoreTest, AlteredBytesAreNeverServed) {
   EXPECT_EQ(store_->series(job.id, 1).error().code, ErrorCode::kDamagedStore);
 }
 
+TEST_F(PostgresJobStoreTest, AnEndedJobIsToldAsItEndedOrNotAtAll) {
+  const NewJob ended = new_job(), dismissed = new_job();
+  ASSERT_TRUE(store_->append(ended, 1, {}));
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer"}, 3).value());
+  ASSERT_TRUE(store_->append(dismissed, 4, {}));
+  ASSERT_TRUE(store_->dismiss(dismissed.id, 5));
+  for (const char* const altered : {"kind = 'check'", "owner = 'eve'", "state = 'failed'",
+                                    "state = 'accepted'", "ended_ms = 9", "created_ms = 0", "attempt = 7"}) {
+    schema_->run(
+        "CREATE TABLE before AS SELECT id, kind, owner, state, ended_ms, created_ms, attempt FROM "
+        "slipway_jobs");
+    for (const std::string& id : {ended.id, dismissed.id}) EXPECT_TRUE(store_->get(id)) << altered;
+    schema_->run("UPDATE slipway_jobs SET " + std::string(altered));
+    for (const std::string& id : {ended.id, dismissed.id})
+      EXPECT_EQ(store_->get(id).error().code, ErrorCode::kDamagedStore) << altered;
+    EXPECT_FALSE(store_->claim_some("a", {}, 6, {6, 7}, 1).value().size()) << "no work again";
+    schema_->run(
+        "UPDATE slipway_jobs AS job SET kind = b.kind, owner = b.owner, state = b.state, ended_ms = "
+        "b.ended_ms, created_ms = b.created_ms, attempt = b.attempt FROM before AS b WHERE b.id = job.id");
+    schema_->run("DROP TABLE before");
+  }
+  schema_->run("ALTER TABLE slipway_jobs DROP COLUMN end_sha256");
+  const auto again = open_postgres_job_store(schema_->address());
+  ASSERT_TRUE(again) << again.error().detail;
+  EXPECT_EQ((*again)->get(ended.id).value()->state, JobState::kSuccessful) << "of an older program";
+}
+
 // A crash of the server may take back a claim, which is not waited for.
 TEST_F(PostgresJobStoreTest, AnAttemptThatIsGivenAgainIsOfAnotherWorker) {
   ASSERT_TRUE(store_->append(new_job(), 1, {}));

@@ -141,7 +141,40 @@ TEST(UploadFolder, AnAlteredFileIsNotGivenOut) {
   EXPECT_EQ(uploads->verified(kept->id).error().code, ErrorCode::kDamagedStore);
   EXPECT_EQ(uploads->verified(std::string(64, '0')).error().code, ErrorCode::kNotFound);
   EXPECT_FALSE(uploads->find("../../etc"));
-  EXPECT_FALSE(*uploads->remove("../../etc"));
+  EXPECT_FALSE(uploads->find(std::string(64, '.')));
+}
+
+TEST(UploadFolder, EachOwnerHasAnUploadOfTheSameBytes) {
+  const ScratchFolder folder;
+  auto uploads = UploadFolder::open(folder.path()).value();
+  const Asker ann{.name = "ann"}, bob{.name = "bob"}, eve{.name = "eve"};
+  const auto anns =
+      uploads->keep(body(folder.path(), "bytes").fd(), "x.tif", {.owner = "ann", .at_ms = 10}).value();
+  const auto bobs =
+      uploads->keep(body(folder.path(), "bytes").fd(), "units.geojson", {.owner = "bob", .at_ms = 20})
+          .value();
+  EXPECT_EQ(anns.id, bobs.id);
+  EXPECT_EQ(bobs.name, "units.geojson");
+  EXPECT_EQ(uploads->find(bobs.id, ann)->name, "x.tif");
+  EXPECT_EQ(uploads->verified(bobs.id, bob)->filename(), "units.geojson");
+  EXPECT_TRUE(uploads->find(bobs.id, eve)) << "as before, who knows the bytes may work on them";
+  EXPECT_EQ(fs::hard_link_count(*uploads->verified(bobs.id, bob)), 2U) << "the bytes are there once";
+  EXPECT_EQ(uploads->list(bob).size(), 1U);
+  EXPECT_EQ(uploads->list(bob).front().name, "units.geojson");
+  EXPECT_TRUE(*uploads->remove(anns));
+  EXPECT_EQ(uploads->find(bobs.id, ann)->origin.owner, "bob");
+  EXPECT_EQ(uploads->verified(bobs.id, bob)->filename(), "units.geojson") << "ann's alone is gone";
+}
+
+TEST(UploadFolder, AnUploadFromBeforeOwnersHadTheirOwnIsItsOwners) {
+  const ScratchFolder folder;
+  auto uploads = UploadFolder::open(folder.path()).value();
+  const auto made =
+      uploads->keep(body(folder.path(), "bytes").fd(), "a.csv", {.owner = "ann", .at_ms = 10}).value();
+  fs::rename(uploads->files() / made.folder, uploads->files() / made.id);
+  EXPECT_EQ(uploads->find(made.id, {.name = "ann"})->folder, made.id);
+  EXPECT_EQ(uploads->keep(body(folder.path(), "bytes").fd(), "b.csv", {.owner = "ann", .at_ms = 20})->name,
+            "a.csv");
 }
 
 TEST(UploadFolder, HoldsNoMoreThanItMay) {

@@ -47,6 +47,13 @@ TEST_F(ElevationRefusal, DegreePixelsAreRefusedWithAProjectionOnTheRastersOwnSph
        "-r bilinear dem.tif dem_m.tif"});
 }
 
+TEST_F(ElevationRefusal, ATextWithFewerBytesThanCellsIsNotSearchedForThem) {
+  std::ofstream(folder_ / "dem.asc")
+      << "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n";
+  expect_refusal(refusal_of(folder_ / "dem.asc"), ErrorCode::kUnreadableRaster,
+                 {"dem.asc", "100000 rows of 100000 numbers", "cut off"});
+}
+
 TEST_F(ElevationRefusal, DegreePixelsOnAnEllipsoidAreGivenAProjectionOnThatEllipsoid) {
   expect_refusal(refusal_of({.transform = {-4.0, 0.1, 0, 37.0, 0, -0.1}, .crs = "EPSG:4326"}),
                  ErrorCode::kUnsupportedCrs,

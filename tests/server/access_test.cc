@@ -32,6 +32,16 @@ HttpRequest asked(const std::string& method, const std::string& token, const std
   return request;
 }
 
+TEST(Access, ATokenIsOnePersons) {
+  const NewToken one = new_token("ann", Role::kOperator);
+  std::string again = one.entry;
+  again.replace(again.find("ann"), 3, "bob");
+  const TokenFile file(one.entry + again);
+  const auto refused = Access::open({.tokens = file.path()});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().faults.front().message.find("same token"), std::string::npos);
+}
+
 ErrorCode refusal_of(Access& access, HttpRequest request) {
   const auto admitted = access.admit(request);
   return admitted ? ErrorCode::kInternal : admitted.error().code;
@@ -49,6 +59,8 @@ TEST(Access, RolesMayDoWhatTheyMay) {
   EXPECT_EQ(reads.principal, "wall");
   EXPECT_TRUE((*access)->admit(asks));
   EXPECT_EQ(asks.principal, "ops");
+  EXPECT_TRUE((*access)->knows(asks.token));
+  EXPECT_FALSE((*access)->knows(""));
   EXPECT_FALSE(asks.is_admin);
   EXPECT_TRUE((*access)->admit(all));
   EXPECT_TRUE(all.is_admin);

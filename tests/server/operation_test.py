@@ -133,6 +133,63 @@ class Operation(unittest.TestCase):
         self.assertTrue(all(line["what"]["reason"] == REASON for line in lines), lines)
         self.assertNotIn(confirmation, audit.read_text())
 
+    def test_an_override_is_another_persons_whatever_their_token_is_called(self):
+        tokens = self.folder / "tokens.toml"
+        (ann, entry_of_ann), (bob, entry_of_bob) = self.token("ann"), self.token("bob")
+        tokens.write_text(entry_of_ann + entry_of_bob)
+        server = self.serve("--tokens", str(tokens))
+        address = self.refused_check(server, ann)
+        asks = lambda who, **more: server.ask("POST", address, {"reason": REASON, **more}, who)
+
+        def now_known(*entries):
+            tokens.write_text("".join(entries))
+            server.process.send_signal(signal.SIGHUP)
+            time.sleep(0.5)
+
+        confirmation = json.loads(asks(ann)[2])["confirmation"]
+        now_known(entry_of_ann.replace("ann", "anna"), entry_of_bob)
+        self.assertEqual(asks(ann, confirmation=confirmation)[0], 403, "the same token under another name")
+        now_known(entry_of_bob)
+        status, _, body = asks(bob, confirmation=confirmation)
+        self.assertEqual(status, 422, body)
+        self.assertIn("/confirmation", body.decode(), "what was asked with a token that is gone has lapsed")
+        now_known(entry_of_ann, entry_of_bob)
+        confirmation = json.loads(asks(ann)[2])["confirmation"]
+        self.assertEqual(asks(bob, confirmation=confirmation)[0], 201)
+        self.assertEqual(asks(bob, confirmation=confirmation)[0], 409)
+
+    def test_a_row_that_was_altered_is_told_and_ends_nothing(self):
+        server = self.serve("--override-persons", "1")
+        status, headers, body = server.ask("POST", "/v1/predictions", CHECK, ASYNC)
+        self.assertEqual(status, 201, body)
+        job = headers["Location"].split("/")[-1]
+        state = lambda: json.loads(server.ask("GET", headers["Location"])[2])["state"]
+        self.assertTrue(comes_true(lambda: state() == "successful"))
+        with sqlite3.connect(server.folder / "jobs.sqlite") as store:
+            store.execute("UPDATE jobs SET kind = 'check' WHERE id = ?", (job,))
+        for method, path, sent in (("POST", f"/v1/checks/{job}/override", {"reason": REASON}),
+                                   ("GET", f"/v1/checks/{job}/report", None), ("GET", f"/v1/jobs/{job}", None),
+                                   ("GET", f"/v1/jobs/{job}/result", None), ("DELETE", f"/v1/jobs/{job}", None)):
+            status, _, body = server.ask(method, path, sent)
+            self.assertEqual((status, json.loads(body)["type"]), (500, "/errors#damaged_store"), path)
+        with sqlite3.connect(server.folder / "jobs.sqlite") as store:  # as an older program has left it
+            store.execute("DELETE FROM ends")
+        status, _, body = server.ask("POST", f"/v1/checks/{job}/override", {"reason": REASON})
+        self.assertEqual((status, json.loads(body)["type"]), (500, "/errors#damaged_store"), body)
+        self.assertEqual(server.ask("GET", "/healthz")[0], 200)
+
+    def test_a_store_that_was_removed_takes_no_work(self):
+        server = self.serve()
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200))
+        store = server.folder / "jobs.sqlite"
+        store.rename(server.folder / "away")
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 5))
+        status, _, body = server.ask("POST", "/v1/predictions", CHECK, ASYNC)
+        self.assertEqual(status, 503, body)
+        self.assertIn("moved, removed or replaced", json.loads(body)["detail"])
+        (server.folder / "away").rename(store)
+        self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 5))
+
     def test_one_person_is_enough_where_the_settings_say_so(self):
         server = self.serve("--override-persons", "1")
         address = self.refused_check(server, {})
@@ -191,6 +248,7 @@ class Operation(unittest.TestCase):
         with contextlib.closing(sqlite3.connect(self.folder / "jobs.sqlite")) as store:
             day = 24 * 3600 * 1000  # as if the clock were 400 days ahead from now on
             store.execute("UPDATE jobs SET created_ms = created_ms - 400 * ?, ended_ms = ended_ms - 400 * ?", (day, day))
+            store.execute("DELETE FROM ends")  # which has digests of these times
             store.commit()
         for _ in range(2):
             server = self.serve()
@@ -308,8 +366,18 @@ class FullDisk(unittest.TestCase):
                 pass
         self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 503, 10))
         self.assertIn("is full", json.loads(server.ask("GET", "/readyz")[2])["detail"])
+        for k in range(3000):  # what changes nothing does not take the room that is kept in the audit log
+            self.assertEqual(server.ask("DELETE", f"/v1/jobs/{k:032x}")[0], 404)
+            if k % 300 == 0:
+                with contextlib.suppress(OSError), filling.open("ab", buffering=0) as file:
+                    while file.write(b"\0" * 4096):
+                        pass
         status, _, body = server.ask("DELETE", location)
         self.assertEqual(status, 200, body)
+        lines = [json.loads(line) for line in (folder / "audit.jsonl").read_text().splitlines()]
+        self.assertEqual(lines[-1]["status"], 200)
+        self.assertGreater(lines[-1]["unsaid_before"], 100)
+        self.assertEqual(server.ask("DELETE", location)[0], 200, "again, which changes nothing")
         filling.unlink()
         self.assertTrue(comes_true(lambda: server.ask("GET", "/readyz")[0] == 200, 10))
 

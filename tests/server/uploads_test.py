@@ -224,6 +224,53 @@ class Uploads(unittest.TestCase):
         self.assertEqual(self.ask("/v1/predictions", request, 422)["faults"][0]["pointer"], "/terrain")
         self.assertEqual(self.server.ask("DELETE", "/v1/terrains/gale")[0], 403)
 
+    def test_a_map_that_was_altered_after_its_import_is_not_read(self):
+        elevation = self.sent(ELEVATION.read_bytes(), "dem.tif")
+        extent = self.ask("/v1/terrains", {"name": "site", "elevation": elevation})["extent"]
+        x, y = 0.5 * (extent["west_m"] + extent["east_m"]), 0.5 * (extent["south_m"] + extent["north_m"])
+        request = {"terrain": "site", "rover": "mer-class", "path": [{"x_m": x, "y_m": y}, {"x_m": x + 5, "y_m": y}]}
+        self.ask("/v1/predictions", request)
+        file = self.path / "uploads" / "terrains" / "site" / "elevation.tif"
+        whole = file.read_bytes()
+        file.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+        for start_anew in (False, True):
+            if start_anew:
+                self.server.stop()
+                self.server = Server(self.path)
+            for method, path, sent in (("POST", "/v1/predictions", {**request, "seed": 3}),
+                                       ("GET", f"/v1/terrains/site/point?x_m={x}&y_m={y}", None),
+                                       ("GET", "/v1/terrains/site", None)):
+                status, _, body = self.server.ask(method, path, sent)
+                self.assertEqual((status, json.loads(body)["type"]), (500, "/errors#damaged_store"), body)
+                self.assertIn("elevation.tif of the terrain site is not what was imported: import", body.decode())
+        self.ask("/v1/terrains", {"name": "site", "elevation": elevation})
+        self.ask("/v1/predictions", request)
+
+    def test_a_hostile_text_does_not_become_a_large_answer(self):
+        files = campaign_files()
+        table = next(name for name in files if name.endswith(".csv"))
+        archive = self.sent(tar_of({**files, table: b"a" * 3_000_000}), "p04.tgz")
+        status, headers, body = self.server.ask("POST", "/v1/drive-campaigns", {"upload": archive},
+                                                {"Prefer": "respond-async"})
+        self.assertEqual(status, 201, body)
+        self.assertEqual(self.server.end_of(headers["Location"])["state"], "failed")
+        for address in (headers["Location"], headers["Location"] + "/result"):
+            self.assertLess(len(self.server.ask("GET", address)[2]), 200_000)
+
+    def test_a_name_that_is_no_text_leaves_answers_json(self):
+        name = "a\udcff"  # Python's words for a byte that is no UTF-8
+        made = io.BytesIO()
+        with tarfile.open(fileobj=made, mode="w:gz", format=tarfile.GNU_FORMAT) as archive:
+            entry = tarfile.TarInfo(name)
+            entry.size = 2
+            archive.addfile(entry, io.BytesIO(b"{}"))
+        status, headers, body = self.server.ask(
+            "POST", "/v1/drive-campaigns", {"upload": self.sent(made.getvalue(), "a.tgz")}, {"Prefer": "respond-async"})
+        self.assertEqual(status, 201, body)
+        self.assertEqual(self.server.end_of(headers["Location"])["state"], "failed")
+        problem = json.loads(self.server.ask("GET", headers["Location"])[2].decode("utf-8"))["problem"]
+        self.assertIn("a\ufffd", problem["detail"])
+
     def test_no_name_of_a_system_makes_the_service_open_a_file(self):
         elevation, legend = self.sent(ELEVATION.read_bytes(), "dem.tif"), self.sent(b"label,soil\n1,mars_dune\n", "legend.csv")
         there = self.path / "definitions"

@@ -380,7 +380,7 @@ export interface paths {
         put?: never;
         /**
          * Send a file: an elevation map, a soil map, a legend, an archive of drives
-         * @description The body is the file's bytes, streamed to disk. What is made of it is asked for afterwards: POST /v1/terrains or POST /v1/drive-campaigns with the id. The same bytes a second time are the same upload. Files go after seven days; what was made of them stays.
+         * @description The body is the file's bytes, streamed to disk. What is made of it is asked for afterwards: POST /v1/terrains or POST /v1/drive-campaigns with the id. The same bytes a second time from the same person are the same upload; another person has one of their own under the same id. Files go after seven days; what was made of them stays.
          */
         post: operations["send_file"];
         delete?: never;
@@ -794,7 +794,7 @@ export interface paths {
         put?: never;
         /**
          * Let a drive go whose check says NO-GO or UNKNOWN
-         * @description Asked twice: the first answer gives a confirmation, and the override stands when the same reason comes again with it, from another person unless the service was started with --override-persons 1. The check's verdict stays as it is. The audit log has both requests, who sent them and the reason.
+         * @description Asked twice: the first answer gives a confirmation, and the override stands when the same reason comes again with it, from another person (told by the token, whatever its name) unless the service was started with --override-persons 1. What was asked with a token that is no longer known has lapsed. The check's verdict stays as it is. The audit log has both requests, who sent them and the reason.
          */
         post: operations["override_check"];
         delete?: never;
@@ -1278,7 +1278,7 @@ export interface components {
         Jobs: {
             jobs: components["schemas"]["Job"][];
         };
-        /** @description RFC 9457; all faults of a request at once */
+        /** @description RFC 9457; all faults of a request at once, 100 at most: the last of more says how many others there are. Texts that are too long end in ... */
         Problem: {
             /** @description /errors#name */
             type: string;
@@ -3854,6 +3854,8 @@ export interface components {
             legend?: string;
             /** @description Stands for the map's own system: a code such as IAU_2015:49910, a PROJ string, WKT or PROJJSON, none of which may name a file or an address (+init, grids) */
             crs?: string;
+            /** @description Of the heights, stands for that of the file: m, ft, US survey foot */
+            unit?: string;
             /** @description Of the polygons: which property is the label. Left out: unit */
             property?: string;
             /**
