@@ -144,18 +144,22 @@ void advise(std::initializer_list<std::optional<Advice>> found, int draws, Drive
   for (const std::optional<Advice>& advice : found)
     if (advice) verdict.advice.push_back(*advice);
   if (verdict.verdict == Verdict::kGo || (!verdict.advice.empty() && !hangs_on_start(verdict))) return;
+  bool hangs_on_ground = false, hangs_on_draws = true;  // of what the ground's rules say
   std::vector<std::string> changes;
   for (const JudgedRule& rule : verdict.rules) {
     if (rule.verdict == Verdict::kGo) continue;
-    std::string change(change_for(rule));
+    const std::string change(change_for(rule));
     if (change.empty()) {
-      change = "another way or another goal (no shorter drive and no scout drive does)";
-      if (rule.verdict == Verdict::kUnknown && rule.over_draws && draws < kMostDraws)
-        change = fmt::format("more draws of the ground than {}, or {}", draws, change);
+      hangs_on_ground = true;
+      hangs_on_draws &= rule.verdict == Verdict::kUnknown && rule.over_draws && draws < kMostDraws;
+    } else if (std::find(changes.begin(), changes.end(), change) == changes.end()) {
+      changes.push_back(change);
     }
-    if (std::find(changes.begin(), changes.end(), change) == changes.end())
-      changes.push_back(std::move(change));
   }
+  if (hangs_on_ground)
+    changes.insert(changes.begin(),
+                   (hangs_on_draws ? fmt::format("more draws of the ground than {}, or ", draws) : "") +
+                       "another way or another goal (no shorter drive and no scout drive does)");
   verdict.otherwise = fmt::format("{}", fmt::join(changes, ", and "));
 }
 

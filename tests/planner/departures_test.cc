@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "planner/judge/advice.h"
+#include "planner/judge/advice.h"
 #include "planner/timing/drive_in_time.h"
 #include "tests/planner/plan_fixture.h"
 
@@ -427,6 +429,34 @@ TEST(DriveInTime, TheLevelTurnsAlongTheWay) {
   EXPECT_FALSE(holds(drive));  // at the start
   departure.rules.min_sun_rad = rad_from_deg(19.99);
   EXPECT_TRUE(holds(DriveInTime(departure, kOnCells, two_hours(), kNoProgress).at(0)));
+}
+
+// What each rule that is no GO leaves to change, each once.
+TEST(Advice, SaysWhatEachRuleLeavesToChange) {
+  const auto otherwise = [](std::vector<JudgedRule> rules, int draws) {
+    DriveVerdict verdict;
+    verdict.verdict = Verdict::kGo;
+    for (JudgedRule& rule : rules) add_rule(std::move(rule), verdict);
+    advise({}, draws, verdict);
+    return verdict.otherwise;
+  };
+  const auto rule = [](const char* name, Verdict verdict, bool over_draws = false) {
+    return JudgedRule{.name = name, .verdict = verdict, .over_draws = over_draws};
+  };
+  EXPECT_EQ(otherwise({rule("sun", Verdict::kGo)}, 32), "");
+  EXPECT_EQ(
+      otherwise({rule("charge", Verdict::kNoGo), rule("sun", Verdict::kNoGo), rule("earth", Verdict::kNoGo)},
+                32),
+      "more charge, and another time of day");
+  EXPECT_EQ(otherwise({rule("light_left", Verdict::kUnknown)}, 32), "a longer table of the sky");
+  const std::string way = "another way or another goal (no shorter drive and no scout drive does)";
+  EXPECT_EQ(otherwise({rule("embedding", Verdict::kUnknown, true)}, 32),
+            "more draws of the ground than 32, or " + way);
+  EXPECT_EQ(otherwise({rule("embedding", Verdict::kUnknown, true)}, 1000), way);
+  EXPECT_EQ(otherwise({rule("slip_check", Verdict::kNoGo), rule("embedding", Verdict::kUnknown, true),
+                       rule("arrival", Verdict::kNoGo)},
+                      32),
+            way + ", and a later arrival");
 }
 
 TEST(Departures, BehindAWallTheSunIsNotInSight) {
