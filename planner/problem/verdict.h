@@ -58,11 +58,11 @@ struct DisplacedStarts;
 // else GO.
 struct DriveVerdict {
   Verdict verdict = Verdict::kUnknown;
-  std::vector<JudgedRule> rules;                       // the ones that decide first
-  std::vector<std::string> reasons;                    // in words and numbers, the one that decides first
-  std::vector<Advice> advice;                          // what would make it better; none of a GO
-  std::string otherwise = {};                          // what else could, in words, where the advice is not all
-  std::shared_ptr<const Departures> departures;        // where it was asked when the drive may begin
+  std::vector<JudgedRule> rules;                 // the ones that decide first
+  std::vector<std::string> reasons;              // in words and numbers, the one that decides first
+  std::vector<Advice> advice;                    // what would make it better; none of a GO
+  std::string otherwise = {};                    // what else could, in words, where the advice is not all
+  std::shared_ptr<const Departures> departures;  // where it was asked when the drive may begin
   std::shared_ptr<const DisplacedStarts> starts = {};  // where the start has an error
 };
 
