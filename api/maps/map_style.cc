@@ -3,27 +3,11 @@
 #include <array>
 #include <string>
 
+#include "api/chart/chart.h"
 #include "api/maps/map_layer.h"
 
 namespace slipway::api {
 namespace {
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string colour_text(const std::array<std::uint8_t, 3>& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
