@@ -8,7 +8,6 @@
 
 #include "core/angle.h"
 #include "planner/judge/advice.h"
-#include "planner/judge/advice.h"
 #include "planner/timing/drive_in_time.h"
 #include "tests/planner/plan_fixture.h"
 

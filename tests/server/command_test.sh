@@ -302,9 +302,9 @@ expect 2 $shipped --depart 2016-03-22T09:00:00Z --sky "$folder/none.json"
 holds 'none.json' "$folder/err"
 expect 2 "$slipway" plan --request "$folder/none.json"
 expect 2 "$slipway" sky --terrain gale --place 0,0 --horizon
-# To end sooner helps nothing where no departure keeps the rules of the day: without them the drive is a GO.
+# Half a minute is less than any drive needs: to end sooner helps nothing where no departure keeps the rules of the day.
 expect 0 $shipped
-expect 3 $shipped --depart 2016-03-22T09:00:00Z --day arrive_by=2016-03-22T08:00:00Z
+expect 3 $shipped --depart 2016-03-22T09:00:00Z --day arrive_by=2016-03-22T09:00:30Z
 ! grep -q 'end the drive at' "$folder/out" || { echo "a shorter drive is advised that the day forbids"; exit 1; }
 # A start that is wrong is judged, and one that is none refused.
 between="--start 8142566,-276711 --goal 8142566,-276696 --routes 1 --depart 2016-03-22T09:00:00Z"
