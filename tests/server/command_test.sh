@@ -322,5 +322,5 @@ done
 expect 0 "$slipway" check --commands "$folder/sol.json"
 # A GO that holds only with a wait says so first.
 expect 0 $shipped --depart 2016-03-22T01:00:00Z --day charge_percent=0
-holds '^GO: departing at .* must wait' "$folder/out"
+holds '^GO: from .* on the rover must wait for 0.28 h where it stands' "$folder/out"
 echo "as expected"
