@@ -82,13 +82,13 @@ bool keeps(const TimedDrive& drive, const std::vector<std::string>& names) {
   });
 }
 
-// The moment nearest to `bad` at which the rules hold, or those of these names.
+// The moment nearest to `bad` at which `holds` holds of the drive.
+template <class Holds>
 std::int64_t edge_of(const DriveInTime& drive, std::int64_t good, std::int64_t bad, const Progress& progress,
-                     const std::vector<std::string>* names = nullptr) {
+                     const Holds& holds) {
   while (std::abs(bad - good) > kNarrowed_ms && !progress.cancelled()) {
     const std::int64_t middle = good + (bad - good) / 2;
-    const TimedDrive timed = drive.at(middle);
-    ((names != nullptr ? keeps(timed, *names) : keeps_rules(timed)) ? good : bad) = middle;
+    (holds(drive.at(middle)) ? good : bad) = middle;
   }
   return good;
 }
@@ -98,9 +98,10 @@ std::optional<DepartureWindow> window_between(const DriveInTime& drive, const Ti
                                               const TimedDrive& after, const Progress& progress) {
   const std::vector<std::string> names = broken_rules(before);
   if (!keeps(after, names)) return std::nullopt;
-  const std::int64_t from = edge_of(drive, after.departs_ms, before.departs_ms, progress, &names);
+  const std::int64_t from = edge_of(drive, after.departs_ms, before.departs_ms, progress,
+                                    [&](const TimedDrive& timed) { return keeps(timed, names); });
   if (!keeps_rules(drive.at(from))) return std::nullopt;
-  return DepartureWindow{from, edge_of(drive, from, after.departs_ms, progress)};
+  return DepartureWindow{from, edge_of(drive, from, after.departs_ms, progress, keeps_rules)};
 }
 
 struct WithHalt {
@@ -215,9 +216,10 @@ Departures departures_of(const Departure& departure, const sim::RoverModel& rove
     TimedDrive timed = drive.at(at);
     const bool holds = keeps_rules(timed);
     if (holds && !held)
-      found.windows.push_back({before ? edge_of(drive, at, before->departs_ms, progress) : at, at});
+      found.windows.push_back(
+          {before ? edge_of(drive, at, before->departs_ms, progress, keeps_rules) : at, at});
     else if (!holds && held)
-      found.windows.back().to_ms = edge_of(drive, before->departs_ms, at, progress);
+      found.windows.back().to_ms = edge_of(drive, before->departs_ms, at, progress, keeps_rules);
     else if (!holds && before)
       if (const auto window = window_between(drive, *before, timed, progress)) {
         found.windows.push_back(*window);

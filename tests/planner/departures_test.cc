@@ -74,6 +74,12 @@ sim::RoverModel powered_by(const sim::PowerSupply& supply) {
   return rover;
 }
 const sim::RoverModel kOnCells = powered_by(kCells), kUnpowered;
+// It needs more than the cells give in the morning.
+const sim::RoverModel kHungry = [] {
+  sim::PowerSupply supply = kCells;
+  supply.driving_w = 160.0;
+  return powered_by(supply);
+}();
 
 bool holds(const TimedDrive& drive) {
   return std::all_of(drive.rules.begin(), drive.rules.end(),
@@ -213,11 +219,9 @@ TEST(Departures, AHaltInTheSunLetsTheBatteryCharge) {
   departure.to_ms = 8 * kHour_ms;
   departure.charge = 0.45;
   departure.rules.min_charge = 0.4;
-  sim::RoverModel hungry = kOnCells;
-  hungry.power->driving_w = 160.0;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures found = departures_of(departure, hungry, prediction, progress);
+  const Departures found = departures_of(departure, kHungry, prediction, progress);
   EXPECT_TRUE(found.windows.empty());
   ASSERT_TRUE(found.halt);
   ASSERT_TRUE(found.is_kept());
@@ -232,19 +236,17 @@ TEST(Departures, AHaltIsNoLongerThanItMustBe) {
   departure.from_ms = departure.to_ms = 7 * kHour_ms;
   departure.charge = 0.45;
   departure.rules.min_charge = 0.4;
-  sim::RoverModel hungry = kOnCells;
-  hungry.power->driving_w = 160.0;
   NoProgress progress;
   const sim::DrivePrediction prediction = two_hours();
-  const Departures free = departures_of(departure, hungry, prediction, progress);
+  const Departures free = departures_of(departure, kHungry, prediction, progress);
   ASSERT_TRUE(free.halt);
   EXPECT_LT(free.drive.least_charge_low, 0.407);  // a minute gains 0.006
   departure.rules.arrive_by = free.drive.arrives_late_ms + 60'000;
-  const Departures in_time = departures_of(departure, hungry, prediction, progress);
+  const Departures in_time = departures_of(departure, kHungry, prediction, progress);
   ASSERT_TRUE(in_time.halt);
   EXPECT_NEAR(in_time.halt->hours, free.halt->hours, 1.0 / 60.0);
   departure.rules.arrive_by = free.drive.arrives_late_ms - 120'000;
-  EXPECT_FALSE(departures_of(departure, hungry, prediction, progress).is_kept());
+  EXPECT_FALSE(departures_of(departure, kHungry, prediction, progress).is_kept());
 }
 
 // The sun must stand high enough, and the rover must be there in time: half a minute lies between, wherever
