@@ -8,17 +8,13 @@
 
 #include "core/angle.h"
 #include "core/utc.h"
+#include "tests/sky/degrees_between.h"
 
 namespace slipway::sky {
 namespace {
 
 std::int64_t at(const char* utc) {
   return utc_of_text(utc).value();
-}
-
-double degrees_between(const Bearing& a, const Bearing& b) {
-  const Eigen::Vector3d p = towards(a), q = towards(b);
-  return deg_from_rad(std::atan2(p.cross(q).norm(), p.dot(q)));
 }
 
 // Mars24, Algorithm and Worked Examples (NASA GISS), example A: the prime meridian.

@@ -13,6 +13,7 @@
 #include "core/angle.h"
 #include "core/utc.h"
 #include "sky/mars_time.h"
+#include "tests/sky/degrees_between.h"
 
 namespace slipway::sky {
 namespace {
@@ -46,11 +47,6 @@ double number(const Row& row, const std::string& column) {
 Bearing published(const Row& row, const std::string& what) {
   return {rad_from_deg(number(row, what + "_azimuth_deg")),
           rad_from_deg(number(row, what + "_elevation_deg"))};
-}
-
-double degrees_between(const Bearing& a, const Bearing& b) {
-  const Eigen::Vector3d p = towards(a), q = towards(b);
-  return deg_from_rad(std::atan2(p.cross(q).norm(), p.dot(q)));
 }
 
 TEST(MarsSun, StandsWhereJplHasIt) {

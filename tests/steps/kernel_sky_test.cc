@@ -17,6 +17,7 @@
 #include "sky/mars_time.h"
 #include "sky/planets.h"
 #include "steps/spice_orientation.h"
+#include "tests/sky/degrees_between.h"
 
 namespace slipway::steps {
 namespace {
@@ -25,11 +26,6 @@ constexpr double kDay_s = 86400.0;
 
 std::int64_t at(const char* utc) {
   return utc_of_text(utc).value();
-}
-
-double degrees_between(const sky::Bearing& a, const sky::Bearing& b) {
-  const Eigen::Vector3d p = towards(a), q = towards(b);
-  return deg_from_rad(std::atan2(p.cross(q).norm(), p.dot(q)));
 }
 
 SkyPlace place(double east_deg, double north_deg) {
